@@ -38,6 +38,7 @@ struct EdgeHash
 
 } // namespace
 
+// Returns the number of the new point, by which rings refer to it.
 std::int64_t RegionMap::AddPoint(const Point<2>& place)
 {
   this->Places.push_back(place);
@@ -89,6 +90,7 @@ double RegionMap::AreaOf(std::int64_t ring) const
   return (this->Turned[Index(ring)] != 0) != this->IsHole(ring) ? -area : area;
 }
 
+// Sums up the rings of each region; lines have no area, and holes count negatively.
 std::vector<double> RegionMap::Areas(std::int32_t regions) const
 {
   std::vector<double> areas(static_cast<std::size_t>(regions), 0.0);
@@ -104,6 +106,7 @@ std::vector<double> RegionMap::Areas(std::int32_t regions) const
   return areas;
 }
 
+// The rings of a region are in the order of their numbers; a region without rings has none.
 std::vector<std::vector<std::int64_t>> RegionMap::RingsOfRegions() const
 {
   std::vector<std::vector<std::int64_t>> rings;

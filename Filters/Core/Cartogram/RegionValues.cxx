@@ -20,8 +20,11 @@ namespace RectifiedTransport
 namespace
 {
 
+// Rows are regions; the matrix is sparse, because few pairs of regions share a cell.
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 
+// The linear system M d = m - around * rest, by which the densities d give the regions the masses
+// m.
 struct System
 {
   Matrix Common;                 // M
@@ -318,6 +321,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
   constexpr double smallestChange = 1e-5;
   const System system = systemOf(raster, progress);
   const auto regions = static_cast<std::size_t>(raster.Regions());
+  // The mass within a region is a row of the matrix times the densities, and its part of the rest.
   const auto massOf = [&](std::size_t region) {
     double mass = targets.Around * system.Uncovered[region];
     for (Matrix::InnerIterator entry(system.Common, static_cast<Eigen::Index>(region)); entry;
@@ -365,6 +369,7 @@ double solveForDensities(const RegionRaster& raster, const RegionTargets& target
 // Returns whether many regions overlap: the matrix would have an entry for every pair of them.
 bool isCrowded(const RegionSets& sets)
 {
+  // Four million entries take 50 MB in the matrix, and each sweep visits all of them.
   constexpr std::int64_t mostPairs = std::int64_t{ 1 } << 22;
   std::int64_t pairs = 0;
   for (std::int32_t set = sets.First(); set < sets.End(); ++set)

@@ -55,6 +55,8 @@ void RegionMap::FindParts(
       progress.Check();
     }
   };
+  // Most regions have no crossings, which the sweep finds out in O(n log n); the division by
+  // regions takes longer.
   const bool mayCross = outline.Edges() > 3 && haveCrossings(outline, progress);
   endIfCancelled();
   if (!mayCross)

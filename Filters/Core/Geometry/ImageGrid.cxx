@@ -55,6 +55,7 @@ ImageGrid::ImageGrid(const std::array<int, 6>& extent, const Eigen::Vector3d& or
   this->FindCells();
 }
 
+// Bitwise equality: grids that differ by rounding are compared in CommonGrid.
 bool ImageGrid::operator==(const ImageGrid& other) const
 {
   return this->PointExtent == other.PointExtent && this->PointOrigin == other.PointOrigin &&
@@ -62,6 +63,7 @@ bool ImageGrid::operator==(const ImageGrid& other) const
     this->OnPoints == other.OnPoints;
 }
 
+// VTK writes an empty extent as one whose upper end is below its lower one.
 bool ImageGrid::IsEmpty() const
 {
   const auto& e = this->PointExtent;
@@ -78,6 +80,8 @@ std::array<int, 3> ImageGrid::NumberOfPoints() const
   return points;
 }
 
+// There is one cell less than points along an axis; an axis of one point still has one layer of
+// values.
 std::array<int, 3> ImageGrid::NumberOfValues() const
 {
   std::array<int, 3> values = this->NumberOfPoints();
@@ -129,16 +133,21 @@ ImageGrid ImageGrid::Grown(const std::array<std::int64_t, 3>& cells) const
   return grid;
 }
 
+// Along each axis there is one centre less than points, and the first one is half a spacing after
+// the first point.
 ImageGrid ImageGrid::AtCellCentres() const
 {
   return this->WithMorePoints(-1, true);
 }
 
+// Along each axis the dual cells have one corner more than points, and the first one is half a
+// spacing before the first point.
 ImageGrid ImageGrid::WithDualCells() const
 {
   return this->WithMorePoints(1, false);
 }
 
+// Axes of one point stay as they are: they have neither cells nor dual cells.
 ImageGrid ImageGrid::WithMorePoints(int more, bool onPoints) const
 {
   ImageGrid grid = *this;
@@ -198,6 +207,7 @@ void ImageGrid::FindCells()
   }
   // Length |a|, area |a x b| or volume |(a x b) . c| of a cell with the sides a, b, c.
   this->Measure = this->AxisCount > 0 ? measure(axes, this->AxisCount) : 0.0;
+  // The corner of index space is a point like others: it is mapped in the same order of sums.
   const double zero[3] = { 0.0, 0.0, 0.0 };
   this->ToPhysical<3>(zero, this->Corner.data());
   // A corner is never farther than this; if it is not finite, positions are not.
@@ -252,6 +262,7 @@ void ImageGrid::FindCells()
   }
 }
 
+// The product over the axes of index space; 1 without axes.
 std::int64_t ImageGrid::NumberOfCells() const
 {
   std::int64_t cells = 1;

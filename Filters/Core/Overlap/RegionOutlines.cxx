@@ -25,6 +25,7 @@ public:
     : All(rings)
     , Low(rings.At(0)[1])
   {
+    // The bounds along y and the sum of the edges' heights give the number of rows.
     double high = this->Low;
     double lengths = 0.0;
     for (std::int64_t i = 0; i < rings.Edges(); ++i)
@@ -98,6 +99,7 @@ private:
   template <class Visit>
   void VisitEdges(const Visit& visit) const
   {
+    // An edge is listed in each row that it reaches, once.
     const auto edges = static_cast<std::int32_t>(this->All.Edges());
     for (std::int32_t edge = 0; edge < edges; ++edge)
     {
@@ -139,6 +141,7 @@ public:
   std::vector<OutlineEdge> Run()
   {
     this->Found.reserve(static_cast<std::size_t>(this->All.Edges()));
+    // A single ring has no others around it, and needs no rows.
     if (this->All.Count() == 1)
     {
       this->Walk(0, {});
@@ -242,6 +245,7 @@ private:
     } while (edge != top);
   }
 
+  // Crossings are sorted by edges, and along each edge from its first point on.
   std::vector<EdgeCrossing>::const_iterator FirstOn(std::int64_t edge) const
   {
     return std::lower_bound(this->Crossings.begin(), this->Crossings.end(), edge,
@@ -280,6 +284,7 @@ private:
 std::vector<OutlineEdge> regionOutlines(
   const Rings& rings, const std::vector<double>& values, Progress& progress, bool* areSimple)
 {
+  // Two edges enclose no area.
   if (rings.Edges() < 3)
   {
     return {};

@@ -16,7 +16,9 @@ namespace RectifiedTransport
 namespace
 {
 
+// Eight doubles fill a vector of AVX-512, or two of AVX2.
 constexpr std::size_t lanes = 8;
+// For these few edges the comparison of all pairs is faster than sorting into bins.
 constexpr std::size_t comparedAll = 64;   // edges; fewer are not put into bins
 constexpr std::size_t dividedAgain = 384; // edges; bins of more are divided again
 // Bins whose edges all lie on each other cannot be divided further: the depth has a limit.
@@ -37,6 +39,8 @@ public:
   {
   }
 
+  // Finds the crossings among edges within a box. `divisions` counts the levels of bins above these
+  // edges.
   void Search(const std::vector<std::int32_t>& edges, const Box& box, int divisions)
   {
     if (edges.size() <= comparedAll || divisions >= mostDivisions)
@@ -175,6 +179,8 @@ private:
   // each.
   void SearchBins(const std::vector<std::int32_t>& edges, const Box& box, int divisions)
   {
+    // The sort keeps the order of the edges in each bin: begin[bin + 1] is where its next edge
+    // goes, and after the sort where it ends.
     const Bins bins = this->BinsFor(edges, box);
     struct Record
     {
@@ -261,6 +267,8 @@ private:
     std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
       return a.Place != b.Place ? a.Place < b.Place : a.Edge < b.Edge;
     });
+    // An edge belongs to the larger fan of its two ends, since each edge has one place in the
+    // order.
     std::vector<std::size_t> size(count, 0); // number of edges in the larger fan of each edge
     std::vector<std::size_t> fan(count);
     for (std::size_t first = 0, last = 0; first < ends.size(); first = last)
@@ -323,6 +331,7 @@ private:
       box.Add(a.data());
       box.Add(b.data());
     }
+    // The differences of coordinates below are at most this large, which bounds their rounding.
     const double extent = std::max(box.Length(0), box.Length(1));
     for (std::size_t i = 0; i + 1 < count && !this->ShouldStop(); ++i)
     {
@@ -399,6 +408,7 @@ private:
     }
   }
 
+  // Polls for an abort after about 65536 comparisons, as a poll takes longer than a comparison.
   bool ShouldStop()
   {
     constexpr std::int64_t betweenPolls = std::int64_t{ 1 } << 16;
@@ -436,6 +446,7 @@ void Rings::EndRing()
   this->Begins.push_back(this->Edges());
 }
 
+// Memory is allocated once for all points that are about to be added.
 void Rings::Reserve(std::int64_t points)
 {
   this->Points.reserve(Index(points));
@@ -443,6 +454,7 @@ void Rings::Reserve(std::int64_t points)
   this->Owners.reserve(Index(points));
 }
 
+// Three edges of one ring are neighbours, which do not cross: four are the fewest.
 std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress, bool atEnds)
 {
   if (rings.Edges() < 4)

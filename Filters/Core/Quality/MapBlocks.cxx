@@ -157,6 +157,7 @@ public:
   }
 
 private:
+  // The mean density, per grid cell.
   double Mean() const { return this->Rows.TotalMass() / numberOfCells<Dimension>(this->Size); }
 
   // Adds the integrals over faces across an axis, with the numbers numberOf(0 ... count - 1).
@@ -194,6 +195,7 @@ private:
     return LayerBins(std::move(spans));
   }
 
+  // Sorts the faces across an axis by layers, as ByLayer.
   LayerBins FacesByLayer(int axis, const LatticePart<Dimension>& cells, Progress& progress)
   {
     const LatticePart<Dimension>& faces = this->Faces[axis];
@@ -368,6 +370,7 @@ private:
     }
     const LatticePart<Dimension> samples = MapBlocks<Dimension>::SamplesOf(this->Blocks);
     const LatticePart<Dimension> none{ {}, {} };
+    // A sample adds the grid cell that its image is in; the join of boxes depends on no order.
     return reduceChunks(
       progress, samples.Count(), 4096, none,
       [&](std::int64_t first, std::int64_t last) {
@@ -422,6 +425,7 @@ private:
     return one;
   }
 
+  // The error of each of this rank's blocks, negative for those that do not count.
   template <class Error>
   std::vector<double> Errors(const Error& error, Progress& progress)
   {
@@ -463,6 +467,7 @@ BlockErrors measureBlocksBetween(const MapSamples<Dimension>& map,
 {
   const Ranks& ranks = progress.Group();
   Stages stages(progress, { { "shares", 1 }, { "errors", 4 } });
+  // The source's shares come first: its rows are released before those of the target are read.
   std::vector<double> shares =
     BlocksRun<Dimension>(map, source.Density, source.Total, ranks).Shares(stages["shares"]);
   return BlocksRun<Dimension>(map, target.Density, target.Total, ranks)

@@ -29,6 +29,8 @@ template <int D>
 class PlaceBins
 {
 public:
+  // Sorts the places of these numbers into bins. They are in index space, and there is at least
+  // one.
   PlaceBins(const std::vector<Point<D>>& places, const Bins<std::int64_t>::Range& numbers)
     : Places(places)
   {
@@ -96,6 +98,7 @@ public:
   }
 
 private:
+  // The bin along an axis; places beyond the box are in the bin at its border.
   std::int64_t At(int axis, double x) const
   {
     const double bin = (x - this->Low[axis]) / this->Width;
@@ -103,6 +106,7 @@ private:
       std::clamp(bin, 0.0, static_cast<double>(this->Size[axis] - 1)));
   }
 
+  // Places are those of all slabs, looked up by their numbers; Low and Width are in grid cells.
   const std::vector<Point<D>>& Places;
   Point<D> Low;
   double Width;
@@ -117,6 +121,8 @@ template <int D>
 void search(const CellPieces<D>& pieces, std::int64_t cell, int set, const PlaceBins<D>& bins,
   MeshLocation* found)
 {
+  // Simplices look for the places near them, not places for simplices: each cell is divided once
+  // for a slab, and needs no memory afterwards.
   using Vector = Eigen::Matrix<double, D, 1>;
   for (std::int64_t s = 0; s < pieces.NumberOfSimplices(); ++s)
   {
@@ -234,11 +240,14 @@ void searchRegions(const RegionBatch& batch, std::int64_t slab, const GridSlabs<
   }
 }
 
+// Searches the cells of all sets that reach a slab, in the order of sets and cells, for its places.
+// Sets have cells of different kinds: each has a reader of its own.
 template <int D>
 void searchCells(const std::vector<CellValues>& sets, const ImageGrid& grid,
   const std::vector<Bins<std::int64_t>>& cells, std::int64_t slab, const PlaceBins<D>& bins,
   Progress& progress, MeshLocation* found)
 {
+  // An abort waits for so many cells at most; a poll for each cell would take time of its own.
   constexpr std::int64_t cellsBetweenPolls = 64;
   std::int64_t searched = 0;
   for (std::size_t s = 0; s < sets.size(); ++s)
@@ -263,6 +272,8 @@ template <int D>
 void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPointSpan<3> places,
   Progress& progress, MeshLocation* found)
 {
+  // Slabs are the tasks of threads. A place belongs to one slab, and cells are listed in every slab
+  // from which they are within reach: a place near the face of a slab sees the cells on both sides.
   const GridSlabs<D> slabs(grid.Size<D>());
   // In index space, where a grid cell has the width 1.
   std::vector<Point<D>> index(static_cast<std::size_t>(places.size()));
@@ -288,6 +299,8 @@ void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPoint
       use(PlaceBins<D>(index, own));
     }
   };
+  // Regions come after the cells: they are read in batches, each for all slabs, so that one polygon
+  // with many edges is read once.
   const auto cells = slabs.CellsOf(sets, grid, reach, progress);
   slabs.ForEach(progress, [&](std::int64_t slab) {
     withBins(slab, [&](const PlaceBins<D>& bins) {
@@ -314,6 +327,7 @@ void find(const std::vector<CellValues>& sets, const ImageGrid& grid, ConstPoint
 LargeBuffer<MeshLocation> locateInCells(const std::vector<CellValues>& sets, const ImageGrid& grid,
   ConstPointSpan<3> places, Progress& progress)
 {
+  // One record a place; Cell is -1 for places that no cell reaches.
   LargeBuffer<MeshLocation> found(places.size());
   dispatchDimension(grid.Dimension(), find<1>, find<2>, find<3>)(
     sets, grid, places, progress, found.data());

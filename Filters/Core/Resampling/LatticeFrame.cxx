@@ -20,6 +20,7 @@ namespace
 
 using Eigen::Vector3d;
 
+// Chunks of cells have this size for any number of threads, so that sums have the same bits.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
 // The edges of a cell from its first corner, in lengths.
@@ -171,6 +172,7 @@ void completeAxes(int dimension, LatticeFrame& frame)
   axes.col(flat) = isMirrored ? Vector3d(-across) : across;
 }
 
+// The bounds of corners, in coordinates along the frame's axes; empty at first.
 struct Box
 {
   Vector3d Low = Vector3d::Constant(std::numeric_limits<double>::infinity());
@@ -210,6 +212,7 @@ Part reduceCells(const CellSets& sets, int dimension, Progress& progress, const 
   return all;
 }
 
+// The axes are orthonormal, so that their transpose takes places to coordinates along them.
 Box boxOfCells(
   const CellSets& sets, int dimension, const ImageGrid::Matrix& axes, Progress& progress)
 {
@@ -237,6 +240,7 @@ Box boxOfCells(
 std::optional<LatticeFrame> LatticeFrame::Of(
   const CellSets& sets, int dimension, Progress& progress)
 {
+  // Cells that fit no lattice are no error: the caller resamples them instead.
   const std::optional<Edges> like = firstEdges(sets, dimension);
   if (!like)
   {
@@ -306,6 +310,7 @@ BoxCorners::BoxCorners(const CellSet& cells, int dimension)
 {
 }
 
+// Pixels, voxels, lines and polylines have their points in the order of the bits.
 bool BoxCorners::Read(std::int64_t cell)
 {
   // The points of cells around a face (quadrilaterals and hexahedra), by the bits of the corners:

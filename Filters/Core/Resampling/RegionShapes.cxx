@@ -15,6 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A thread tests so many cells at a time: most tests look at the number of corners alone.
 constexpr std::int64_t cellGrain = std::int64_t{ 1 } << 10;
 // Stands for all closed lines of a set in the place of a cell.
 constexpr std::int64_t allLines = -1;
@@ -206,6 +207,7 @@ private:
   // VTK's triangles of a concave or crossing polygon need not cover the region once.
   bool IsDividedWell(std::int64_t cell, RegionShape& shape, Progress& progress)
   {
+    // Both areas differ by rounding alone if the triangles cover the region once.
     constexpr double tolerance = 1e-9;
     this->Reader.FindRegions(cell, shape, progress);
     const double area =
@@ -228,6 +230,7 @@ struct Unit
   std::int64_t Cell;
 };
 
+// The units in the order of sets and cells, which is the order of regions in every result.
 std::vector<Unit> unitsOf(const std::vector<CellValues>& sets)
 {
   std::vector<Unit> units;
@@ -303,6 +306,7 @@ void markRegions(std::vector<CellValues>& sets, const ImageGrid& grid, Progress&
   for (std::size_t s = 0; s < sets.size(); ++s)
   {
     CellValues& values = sets[s];
+    // Closed lines are regions in any case: there is nothing to test.
     if (values.AreClosedLines())
     {
       continue;
@@ -335,6 +339,8 @@ void visitRegions(const std::vector<CellValues>& sets, const ImageGrid& grid,
     // Memory is that of one batch.
     batch.Shapes.clear();
     batch.Shapes.resize(last - first);
+    // Each shape is one task, because one polygon may have most of the edges. Slices begin with one
+    // shape for the same reason: the time of the first is not known.
     progress.For(
       static_cast<std::int64_t>(last - first), 1,
       [&](std::int64_t begin, std::int64_t end) {

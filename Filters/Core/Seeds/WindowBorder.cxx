@@ -118,6 +118,7 @@ public:
   }
 
 private:
+  // The seeds of a bin are a linked list through the array of all seeds.
   struct Seed
   {
     Point<2> X;
@@ -142,6 +143,7 @@ private:
   {
     return this->Heads[static_cast<std::size_t>(this->IndexOf(bin))];
   }
+  // A seed on the upper face is in the last bin.
   Bin BinOf(const Point<2>& x) const
   {
     Bin bin;
@@ -153,6 +155,8 @@ private:
     return bin;
   }
 
+  // Moves a seed by 3/2 of the way to the centroid of its cell, or by the part of it that keeps the
+  // least distance to other seeds.
   void Move(std::size_t seed)
   {
     Point<2>& x = this->Seeds[seed].X;
@@ -296,6 +300,7 @@ private:
 
 } // namespace
 
+// The band is as wide as the bins that WindowBorder knows, in units of the rectangle's sides.
 BorderBand::BorderBand(const Point<2>& lengths, std::int64_t count)
 {
   const Bin bins = binsOf(sidesOf(lengths, count));

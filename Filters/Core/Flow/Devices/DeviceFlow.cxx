@@ -67,6 +67,9 @@ struct DeviceCache
   }
 };
 
+// An advection on a device. The tables and the map stay on the device between calls of Run; seeds
+// and positions are transferred. Without the device, the caller advects on the processor, with the
+// same bits.
 template <int Dimension>
 class Advection final : public DeviceAdvection<Dimension>
 {
@@ -87,6 +90,8 @@ public:
     return std::int64_t{ 1 } << (this->IsGpu ? 15 : 12);
   }
 
+  // A source that is a whole lattice needs no seeds from the host; any other one has its seeds
+  // read.
   bool Run(const ParticleSource<Dimension>& source, std::int64_t first, std::int64_t count,
     double* positions, FlowReport& counts, Progress& progress) override
   {
@@ -96,6 +101,7 @@ public:
   }
 
 private:
+  // A thread reads so many seeds at a time: whole blocks, because sources fill block by block.
   static constexpr std::int64_t grain = 32 * BlockSize;
 
   // A whole lattice is advected in its own order: its seeds are made on the device, and its
@@ -269,6 +275,7 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
       return;
     }
     const auto cells = static_cast<std::int64_t>(numberOfCells<Dimension>(density.Size));
+    // All values are on this rank here, since distributed densities have returned.
     const std::shared_ptr<const DensityValues> source = density.Whole();
     // The same scaling as for the processor's tables, so that sums have the same bits.
     const ScaledDensity given(*source, scalingOf(tables.Summary().Maximum));
@@ -288,6 +295,8 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
       return;
     }
     progress.Expect(cells);
+    // A slice is read by the threads and then written to the device: the device is locked only for
+    // the transfer, so that an abort or another run need not wait for all values.
     for (std::int64_t first = 0; first < cells && use.Serves();)
     {
       const std::int64_t count =
@@ -307,6 +316,8 @@ void DeviceFlow<Dimension>::MakeTables(DeviceUse& use, const DensitySource<Dimen
     }
     use.Run(
       [&](Device& device) {
+        // A run that has found the device locked until an abort leaves no tables; Begin then copies
+        // the processor's.
         this->Cached->On(device)->Tables = std::make_shared<const DeviceTables<Dimension>>(
           device, flowProgram(device, Dimension), tables.View(), values);
       },

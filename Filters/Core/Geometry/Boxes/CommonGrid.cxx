@@ -95,6 +95,7 @@ bool hasInverse(const ImageGrid& grid)
   return std::abs(grid.Direction().determinant()) > flat;
 }
 
+// The axes of an image as text, which messages show and comparisons use.
 std::string axesOf(const Sides& sides)
 {
   std::string axes;
@@ -109,11 +110,13 @@ std::string axesOf(const Sides& sides)
   return axes.empty() ? "no axis" : "the axes " + axes;
 }
 
+// The side of the domain along an axis, in physical units.
 double lengthOf(const Side& side)
 {
   return std::abs(side.Spacing) * side.Cells;
 }
 
+// The longest side of the domain: what is off a plane is compared with it.
 double longestOf(const Sides& sides)
 {
   double longest = 0.0;
@@ -145,6 +148,8 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
     fail(first.Name, " has a direction matrix without an inverse, and its geometry is not that of ",
       other.Name, "; give axes of one point a direction of their own");
   }
+  // A spacing of the other sign would run through the box backward. Flat images may lie apart by
+  // rounding, which is compared with the longest side.
   const double longest = std::max(longestOf(a), longestOf(b));
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -181,6 +186,7 @@ bool isSame(const Side& a, const Side& b)
       std::abs(b.Low + b.Spacing * b.Cells - end) <= tolerance);
 }
 
+// Returns whether the grids have the same cells along all axes.
 bool isSame(const Sides& a, const Sides& b)
 {
   return isSame(a[0], b[0]) && isSame(a[1], b[1]) && isSame(a[2], b[2]);
@@ -269,6 +275,7 @@ void coarsen(std::vector<Union>& axes, double most, double least)
   }
 }
 
+// The number of cells of a grid; a double, because three ints may exceed every integer.
 double cellsOf(const Sides& sides)
 {
   return std::accumulate(sides.begin(), sides.end(), 1.0,
@@ -298,6 +305,8 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
     return gridWithValues(first, dimensions, property);
   }
 
+  // Grids that differ get the box around all of them. Along axes of one point, the first grid's
+  // place stays.
   constexpr double most = MaximumResolution;
   Sides sides = all.front();
   std::vector<Union> unions;
@@ -305,6 +314,7 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
   {
     if (sides[i].IsAxis)
     {
+      // The axes of all grids are the same here, which requireAlike has checked.
       unions.push_back(uniteSides(all, i));
     }
   }
@@ -360,6 +370,7 @@ void requireSameBox(const NamedGrid& first, const NamedGrid& other)
   for (std::size_t i = 0; i < 3; ++i)
   {
     // Both ends, with the sign of the spacing.
+    // The ends alone are compared: the numbers of cells may differ.
     const double ends[] = { a[i].Low, a[i].Low + a[i].Spacing * a[i].Cells };
     const double others[] = { b[i].Low, b[i].Low + b[i].Spacing * b[i].Cells };
     const double tolerance = toleranceOf(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]),

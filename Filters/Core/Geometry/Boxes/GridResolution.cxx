@@ -78,10 +78,12 @@ ImageGrid gridWithValues(const ImageGrid& grid, const int wanted[3], const char*
   {
     failValues(property, wanted, "0 (as many as the input) or greater along every axis");
   }
+  // The checks name all three numbers, as the user gave them, and the axis that is wrong.
   const std::array<int, 3> values = grid.NumberOfValues();
   for (std::size_t i = 0; i < 3; ++i)
   {
     const int count = wanted[i];
+    // The number that the image has is allowed, even above the limit.
     if (count == 0 || count == values[i])
     {
       continue;
@@ -114,6 +116,7 @@ ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* 
   double lengths[3];
   for (std::size_t i = 0; i < 3; ++i)
   {
+    // Spacings may be negative; axes of one point have no length.
     const double spacing = grid.Spacing()[static_cast<Eigen::Index>(i)];
     lengths[i] = grid.IsAxis(i) ? std::abs(spacing) * cells[i] : 0.0;
   }
@@ -124,6 +127,7 @@ ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* 
   {
     if (lengths[i] > 0.0)
     {
+      // The quotient of the lengths is at most 1: the product with the resolution cannot overflow.
       wanted[i] = std::max(1, static_cast<int>(std::lround(resolution * (lengths[i] / longest))));
     }
   }
@@ -134,6 +138,7 @@ ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* 
 GridSize<3> cellsOfMargin(const ImageGrid& grid, double margin)
 {
   constexpr double rounding = 1e-9; // part of a cell that must not add another one
+  // Lengths are physical, and axes are those of index space.
   const Point<3> lengths = grid.Lengths<3>();
   const double longest = *std::max_element(lengths.begin(), lengths.begin() + grid.Dimension());
   GridSize<3> cells{};
@@ -143,6 +148,7 @@ GridSize<3> cellsOfMargin(const ImageGrid& grid, double margin)
     const auto size = static_cast<double>(grid.Size<3>()[axis]);
     // margin longest / (lengths / size), in cells
     const double around = std::ceil(margin * (longest / lengths[axis]) * size - rounding);
+    // The negation refuses a margin that is not a number, too.
     if (!(size + 2.0 * around <= MaximumResolution))
     {
       throw Failure("Margin is " + textOf(margin) + "; it makes more than " +
@@ -164,6 +170,7 @@ double numberOfValues(const ImageGrid& grid)
   return number;
 }
 
+// Axes of one point are left out, so that an image of a plane has two numbers.
 std::string describeValues(const ImageGrid& grid)
 {
   std::string text;

@@ -127,6 +127,7 @@ double trueResidual(const FaceWeights<Dimension>& given, const double* x, const 
   });
 }
 
+// The sum of a_i b_i, with products in single precision and sums in double precision.
 double dot(const float* a, const float* b, std::int64_t first, std::int64_t last)
 {
   return sumOf(first, last, [&](std::int64_t q) { return a[q] * b[q]; });
