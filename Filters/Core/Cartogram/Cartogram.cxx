@@ -29,6 +29,7 @@ constexpr double wideSpan = 99.9;
 // The factor on the flow's tolerance in a pass that another one follows: it need not be exact.
 constexpr double coarser = 4.0;
 
+// The largest relative error of a region, of either sign.
 double largestOf(const std::vector<double>& errors)
 {
   double largest = 0.0;
@@ -358,6 +359,7 @@ private:
     return true;
   }
 
+  // The area of each ring, by which CountTurnedRings finds rings that turn over.
   std::vector<double> RingAreas() const
   {
     std::vector<double> areas;
@@ -419,6 +421,7 @@ private:
     }
   }
 
+  // Measures the errors after a pass, and names the region with the largest one.
   const CartogramPass& Judge()
   {
     this->FindErrors();
@@ -461,6 +464,7 @@ private:
 
 } // namespace
 
+// A square around the map with the margin on each side, divided into Resolution cells along a side.
 CartogramBox boxAround(const RegionMap& map, const CartogramOptions& options)
 {
   const auto bounds = Bounds<2>::Of(map.Points());

@@ -219,6 +219,7 @@ Device::~Device()
   this->Close();
 }
 
+// Queues are released before the context that they belong to.
 void Device::Close()
 {
   for (cl_command_queue queue : { this->Queue, this->Transfers })
@@ -354,6 +355,7 @@ void Device::Write(const DeviceBuffer& to, const void* from, std::size_t bytes, 
   }
 }
 
+// Blocking, too: the memory of the host is complete on return.
 void Device::Read(const DeviceBuffer& from, void* to, std::size_t bytes, std::size_t offset)
 {
   if (bytes > 0)
@@ -401,6 +403,7 @@ void Device::Start()
   this->RequireWork(this->Cl.clFlush(this->Queue), "does not start its work");
 }
 
+// A single row of work items.
 void Device::Run(const DeviceKernel& kernel, std::size_t items, std::size_t group)
 {
   this->RunGrid(kernel, { items, 1, 1 }, group);

@@ -75,6 +75,8 @@ std::pair<Name, Name> ordered(const Name& a, const Name& b)
   return b < a ? std::make_pair(b, a) : std::make_pair(a, b);
 }
 
+// The mass, mean and covariance of a density, in units of the box: they give the lower bound of W2
+// by Gelbrich.
 template <int D>
 DensityMoments momentsIn(
   const double* values, const GridSize<3>& cells, const ImageGrid& box, const Context& context)
@@ -135,6 +137,7 @@ std::vector<std::int64_t> itemsOfRank(std::int64_t count, const Ranks& ranks)
 
 } // namespace
 
+// Maps and pairs stay: KeepOnlyGiven forgets those of densities that are not given again.
 void DistanceSet::Begin(DistanceMethod method)
 {
   this->Method = method;
@@ -248,6 +251,7 @@ void DistanceSet::MakeMapsIn(Progress& progress)
 
 double DistanceSet::MemoryForPairs() const
 {
+  // Linearized distances are sums over the maps' samples, which are there already.
   const bool isCertified = this->Method == DistanceMethod::Certified;
   return isCertified && !this->MissingPairs().empty()
     ? dispatchDimension(this->Dimension(), memoryOfPair<1>, memoryOfPair<2>, memoryOfPair<3>)(
@@ -255,6 +259,8 @@ double DistanceSet::MemoryForPairs() const
     : 0.0;
 }
 
+// Linearized, the maps' samples bound W2 from above and the moments from below. Certified, a
+// solution of the pair gives both bounds.
 std::vector<DistancePair> DistanceSet::Find(const Context& context)
 {
   Progress progress(context);

@@ -53,6 +53,8 @@ private:
 
 } // namespace
 
+// A pipe or a device is written directly. A plain file is written under a hidden name in its folder
+// and gets its own name in Close: an error or an abort leaves the earlier file as it was.
 OutputFile::OutputFile(const std::string& name)
   : Target(findOutputTarget(name))
 {
@@ -66,6 +68,7 @@ OutputFile::OutputFile(const std::string& name)
   }
 }
 
+// Without Close, the hidden file is removed.
 OutputFile::~OutputFile()
 {
   if (!this->Part.empty())
@@ -138,6 +141,7 @@ void OutputFile::WaitForReader() const
   }
 }
 
+// Some file systems report a full disk only when the file is closed.
 void OutputFile::Close()
 {
   errno = 0;

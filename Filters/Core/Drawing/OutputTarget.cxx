@@ -167,6 +167,8 @@ OutputTarget findOutputTarget(const std::string& name)
   return target;
 }
 
+// What cannot be restored is no error, and leaves the file with fewer rights than the earlier one
+// had, never with more.
 void copyAccess(const FileDescriptor& earlier, const FileDescriptor& file)
 {
   struct stat status

@@ -92,6 +92,7 @@ public:
     this->EndShape("stroke", colour);
   }
 
+  // Closes the elements that are open, and writes what is left in the buffer.
   void End() override
   {
     this->EnterGroup(Group::None);
@@ -167,6 +168,7 @@ private:
   }
 
   OutputFile& File;
+  // The text waits here until there is a buffer of it. Height is that of the page, in millimetres.
   std::string Text;
   double Height = 0.0;
   double StrokeWidth = 0.0;

@@ -66,6 +66,7 @@ Point<Dimension> cornerAt(std::int64_t corner, const GridSize<Dimension>& size)
 
 } // namespace
 
+// The map back is the flow with these options.
 template <int Dimension>
 AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   const FlowOptions& options, const EqualizeOptions& equalize, const Context& context)
@@ -76,6 +77,8 @@ AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   });
 }
 
+// The map back is another one, such as the optimal map; the flow only gives the masses of the
+// cells.
 template <int Dimension>
 AreaCorrection<Dimension>::AreaCorrection(const RectifiedFlow<Dimension>& flow,
   const PointTransport<Dimension>& map, const EqualizeOptions& equalize, const Context& context)

@@ -316,6 +316,7 @@ EqualizeReport sumMasses(const DensityValues& density, std::int64_t cells, doubl
 
 } // namespace
 
+// Arguments are checked before arrays of the size of the grid are allocated.
 template <int Dimension>
 EqualizeReport equalizeAreas(const DensityValues& density, const GridSize<Dimension>& size,
   double total, PointSpan<Dimension> corners, const EqualizeOptions& options,
@@ -353,6 +354,8 @@ EqualizeReport equalizeAreas(const DensityValues& density, const GridSize<Dimens
   }
 }
 
+// In 1D a chunk of masses is all. Otherwise each part says what it takes, and the masses are
+// floats.
 template <int Dimension>
 double equalizeAreasMemory(const GridSize<Dimension>& size)
 {
