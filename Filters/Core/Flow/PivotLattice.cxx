@@ -19,6 +19,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// base^Dimension in integers, exact as long as it is below 2^63.
 template <int Dimension>
 std::int64_t power(std::int64_t base)
 {

@@ -87,6 +87,7 @@ RectifiedFlow<Dimension>::RectifiedFlow(RectifiedFlow&&) noexcept = default;
 template <int Dimension>
 RectifiedFlow<Dimension>& RectifiedFlow<Dimension>::operator=(RectifiedFlow&&) noexcept = default;
 
+// The sum of the density's values over its cells; times the measure of a cell it is the mass.
 template <int Dimension>
 double RectifiedFlow<Dimension>::Total() const
 {
@@ -174,6 +175,7 @@ void RectifiedFlow<Dimension>::PrepareShares(
   this->Engine->PrepareShares(low, high);
 }
 
+// The bits of occupied cells decide, because rounding leaves differences of sums that are not 0.
 template <int Dimension>
 bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
 {

@@ -160,6 +160,7 @@ struct NodePoisson<Dimension>::Implementation
     }
   }
 
+  // Solves -Laplace p = masses with natural boundaries; masses and p have one value a node.
   void Solve(const double* masses, double* p, Progress& progress)
   {
     if constexpr (Dimension == 1)
@@ -318,6 +319,8 @@ void NodePoisson<Dimension>::Solve(const double* masses, double* p, Progress& pr
   this->Self->Solve(masses, p, progress);
 }
 
+// The preconditioner divides by the Laplacian in O(n log n), so that a step of conjugate gradients
+// costs two transforms along each axis.
 template <int Dimension>
 void NodePoisson<Dimension>::SolveWeighted(const double* masses, const double* density,
   double floor, int iterations, double* p, Progress& progress)

@@ -173,6 +173,8 @@ double WeightedPoisson<Dimension>::ApplyToRow(std::int64_t row, std::int64_t nod
   return sum + image[cells] * d[cells];
 }
 
+// The five arrays are the weights, the residual, the preconditioned residual, the direction and its
+// image.
 template <int Dimension>
 double WeightedPoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid)
 {

@@ -191,11 +191,13 @@ private:
   const Rings& All;
   std::vector<std::int32_t> Before; // by points: the edge that ends there
   std::vector<Ends> Upward;
+  // The order keeps the edges that the line meets, from left to right.
   EdgeOrder Order;
 };
 
 } // namespace
 
+// Three edges of one ring are neighbours, which do not cross.
 bool haveCrossings(const Rings& rings, Progress& progress)
 {
   return rings.Edges() > 3 && Sweep(rings).Run(progress);

@@ -78,6 +78,7 @@ public:
   }
 
   int Places; // for helpers, guarded by the team's mutex
+  // The threads that have joined and not left: the loop is on the caller's stack until it is 0.
   std::atomic<int> Inside{ 0 };
   Loop* Following = nullptr;
   KernelFailure Failure;

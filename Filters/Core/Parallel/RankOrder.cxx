@@ -171,6 +171,7 @@ RankOrder::RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t 
     given[static_cast<std::size_t>(this->Receiver.back())].push_back(place);
   }
   // Where in its share this rank puts what it receives.
+  // Every rank takes part in the exchange, also one without elements.
   this->Slots = exchangeValues(ranks, std::move(given));
   for (std::vector<std::int64_t>& slots : this->Slots)
   {

@@ -129,6 +129,8 @@ private:
   double LargestDistance = 0.0;
 };
 
+// As many sites as before keep the cells of the last update, whose neighbours Update tries first;
+// other numbers begin without cells.
 void PowerDiagram::SetSites(ConstPointSpan<2> sites, Progress& progress)
 {
   this->Tree.Build(sites, progress);
@@ -341,6 +343,7 @@ void PowerDiagram::CutByRivals(std::int64_t site, double weight, Cutter& cutter)
     });
 }
 
+// A trial cell for one weight: the diagram does not change, so that several threads may call this.
 void PowerDiagram::CutCell(std::int64_t site, double weight, std::vector<Corner>& corners) const
 {
   const Point<2>& x = this->SiteOf(site);

@@ -126,6 +126,8 @@ public:
 private:
   static constexpr std::int64_t count = 256;
 
+  // 67 is no multiple of 4, the ratio of two levels: the last cell of the coarse level is narrower
+  // along that axis.
   static GridSize<Dimension> SizeOf()
   {
     GridSize<Dimension> size;

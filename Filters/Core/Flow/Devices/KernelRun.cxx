@@ -257,6 +257,8 @@ void KernelRun<Dimension>::ForPieces(
     run(first, std::min(first + atOnce, steps));
     if (first + atOnce < steps)
     {
+      // Kernels are enqueued without a wait: unless pieces finish one by one, all of them would be
+      // in the queue when an abort comes.
       this->Owner.Finish();
     }
   }

@@ -225,6 +225,8 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
   }
   findNodes<Dimension>(job, lanes);
   BoxLanes<Dimension>& boxes = lanes.Boxes;
+  // The two instances differ in the test of each lane, which a block with all lanes active does not
+  // need.
   if (active)
   {
     sumBoxes<Dimension, false>(job.Tables, boxes, count, active, job.Sparse);

@@ -39,6 +39,8 @@ struct Vector
 using Vector4 = Vector<4>;
 using Vector8 = Vector<8>;
 
+// The operators work element by element. Loops over registers have a constant length and are
+// unrolled, so that vectors stay in registers.
 template <int N, class Value>
 RT_INLINE Vector<N, Value> operator+(const Vector<N, Value>& a, const Vector<N, Value>& b)
 {
@@ -75,6 +77,7 @@ RT_INLINE Vector<N, Value> operator*(const Vector<N, Value>& a, const Vector<N, 
   return product;
 }
 
+// The product with a scalar, which the compiler broadcasts to all elements.
 template <int N, class Value>
 RT_INLINE Vector<N, Value> operator*(const Vector<N, Value>& a, Value b)
 {

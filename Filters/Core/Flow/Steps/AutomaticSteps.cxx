@@ -90,6 +90,8 @@ int mapStepsFor(const FlowOptions& options)
     FlowOptions::MostSteps, options.Integrator);
 }
 
+// Forward, a given number of particles decides how small the blocks can be in which an error shows.
+// Without whole tables there are fewer blocks.
 template <int Dimension>
 ProbePlan<Dimension> planOf(
   const FlowEngine<Dimension>& engine, const FlowOptions& options, FlowDirection direction)
@@ -227,6 +229,7 @@ private:
     return points;
   }
 
+  // Blocks beside each other share the points of their common side, which then move once.
   DistinctPoints<Dimension> Distinct(const Images& points) const
   {
     return DistinctPoints<Dimension>(points, this->Work.Threads());
