@@ -134,6 +134,7 @@ void divideByPower(const std::vector<Point<3>>& sites, const BoxDensity<2>& dens
 
 } // namespace
 
+// The values are read when they are needed, and shared among copies of the density.
 template <int Dimension>
 BoxDensity<Dimension>::BoxDensity(std::shared_ptr<const DensityValues> values,
   const GridSize<Dimension>& cells, const Point<Dimension>& sides)
@@ -317,6 +318,7 @@ std::vector<Point<Dimension>> relax(ConstPointSpan<Dimension> points,
   return relaxed;
 }
 
+// Section 5.1 of the paper: samples of the ink, which the relaxation then spaces evenly.
 std::vector<Point<2>> stipple(const BoxDensity<2>& picture, std::int64_t count,
   const StippleOptions& options, const Context& context)
 {

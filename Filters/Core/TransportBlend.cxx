@@ -213,6 +213,7 @@ private:
     return values;
   }
 
+  // Cells and Grid are the common grid; Count particles represent each density.
   const BlendOptions Options;
   GridSize<D> Cells{};
   ImageGrid Grid;
@@ -222,6 +223,7 @@ private:
 
 } // namespace
 
+// A morph is the blend of two densities with the weights 1 - t and t.
 template <int Dimension>
 std::vector<MadeDensity<Dimension>> morph(const BoxDensity<Dimension>& a,
   const BoxDensity<Dimension>& b, const std::vector<double>& times, const MorphOptions& options,

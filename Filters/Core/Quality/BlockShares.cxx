@@ -53,6 +53,7 @@ public:
   {
   }
 
+  // Other ranks may have more turns when this one has none left.
   bool HasMore() const { return this->Next < this->End; }
 
   struct Batch
@@ -146,6 +147,7 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
     if (batch.IsPart)
     {
       // The share of a large block is the sum of those of its parts.
+      // Parts follow each other, so that the sum has one order.
       *found = shareIn(batch.Box) + (batch.IsFirst ? 0.0 : *found);
       progress.EndSlice(batch.IsFirst ? 1 : 0);
       continue;

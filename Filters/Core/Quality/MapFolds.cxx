@@ -12,6 +12,7 @@
 namespace RectifiedTransport
 {
 
+// Counts from determinants that are there, of the samples `within`, axis 0 fastest.
 template <int Dimension>
 FoldCount MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
   const LatticePart<Dimension>& within, const double* determinants, Progress& progress) const
@@ -24,6 +25,7 @@ FoldCount MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
     progress);
 }
 
+// Counts from positions: determinants are made for one row at a time, and need no array.
 template <int Dimension>
 FoldCount MapFolds<Dimension>::Count(const LatticePart<Dimension>& part,
   const LatticePart<Dimension>& within, const Point<Dimension>& step,

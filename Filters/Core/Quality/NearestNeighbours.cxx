@@ -18,8 +18,11 @@ namespace RectifiedTransport
 namespace
 {
 
+// For so few points, the distances take less time than further boxes.
 constexpr std::int64_t leafPoints = 8;
 
+// The tree moves the points themselves, so that those of a leaf are contiguous; Id is the number
+// that a point was given with.
 struct TreePoint
 {
   double X[3];
@@ -114,6 +117,7 @@ public:
   }
 
 private:
+  // Extends a box by its points, in pieces that may be cancelled in between.
   void Bound(ItemBox& box, Progress& progress) const
   {
     for (std::int64_t first = box.First; first < box.Last; first += mostAtOnce)
@@ -225,6 +229,7 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
 
 } // namespace
 
+// Squared distances are compared, also among ranks; roots are taken once at the end.
 void nearestDistances(ConstPointSpan<3> points, double* distances, const Context& context)
 {
   const bool areSeveral = context.Group->AreSeveral();

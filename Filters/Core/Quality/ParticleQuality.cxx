@@ -28,6 +28,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// A thread takes so many particles or blocks at a time.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 constexpr std::int64_t noBlock = -1;
 constexpr double farOutside = 1e150; // in sizes of the domain; its square is finite
@@ -152,6 +153,7 @@ private:
     this->Quality.InEmptyCells = sumOverRanks(this->Group, inEmpty.load());
   }
 
+  // Sums up the particles' masses; without an array of masses each particle has the mass 1.
   void AddMasses(Progress& progress)
   {
     if (onAllRanks(this->Group, !this->Particles.Masses || this->Count == 0))
@@ -170,6 +172,7 @@ private:
     this->ParticleMass = total;
   }
 
+  // Without displacements on any rank the cost stays 0.
   void MeasureCost(Progress& progress)
   {
     if (onAllRanks(this->Group, this->Particles.Displacements.size() == 0))
@@ -304,6 +307,7 @@ private:
     });
   }
 
+  // The mean and the least of the relative spacings, over the particles of all ranks.
   void AverageSpacings(Progress& progress)
   {
     struct Spacings
@@ -362,6 +366,7 @@ private:
 
 } // namespace
 
+// Cubes of physical space are boxes of these proportions in index space.
 template <int Dimension>
 Point<Dimension> boxAspect(const ImageGrid& grid)
 {

@@ -137,12 +137,14 @@ bool CellLattice::FindTaken(
   return once;
 }
 
+// Whether no two cells share a place; FindTaken also says which places are taken.
 bool CellLattice::HasEachOnce(const std::vector<CellValues>& sets, Progress& progress) const
 {
   std::vector<bool> taken;
   return this->FindTaken(sets, progress, taken);
 }
 
+// Places without a cell carry no mass.
 void CellLattice::CopyValues(
   const std::vector<CellValues>& sets, double* cells, Progress& progress) const
 {
@@ -180,6 +182,7 @@ void CellLattice::ClearAround(const std::vector<CellValues>& sets, const ImageGr
   }
 }
 
+// Makes a table from each place of the lattice to the number of its cell, -1 without one.
 LatticeLookup::LatticeLookup(
   const CellLattice& lattice, const std::vector<CellValues>& sets, Progress& progress)
   : Lattice(lattice)

@@ -19,6 +19,8 @@ bool CellPieces<D>::VisitSimplices(std::int64_t cell, const Visit& visit)
   {
     return false;
   }
+  // Cells are divided by their reader, as VTK does; the density at a vertex is that of the point
+  // or, for cell values, of the cell.
   LinearSimplex<D> simplex;
   for (std::int64_t s = 0; s < this->NumberOfSimplices(); ++s)
   {
@@ -134,6 +136,7 @@ bool CellPieces<D>::FindBox(std::int64_t cell, MultilinearBox<D>& box)
   }
   // A pixel's axes are in order, which need not be that of the grid's. One box that does not fit
   // ends the search for boxes in this set: voxels and pixels of a set have the same axes.
+  // Corners are compared relative to the box's longest side, because index space has any scale.
   constexpr double rounding = 1e-9;
   double longest = 0.0;
   for (int a = 0; a < D; ++a)

@@ -150,6 +150,8 @@ double integrate(const std::vector<CellValues>& sets, const ImageGrid& grid, Pro
 
 } // namespace
 
+// The density of each grid cell is the mean over it, axis 0 fastest; parts outside all cells count
+// as 0.
 CellSize resampleCells(
   const std::vector<CellValues>& sets, const ImageGrid& grid, Progress& progress, double* density)
 {
@@ -157,6 +159,7 @@ CellSize resampleCells(
     sets, grid, progress, density);
 }
 
+// The mass alone needs no sums over grid cells: the sizes of cells and regions have it.
 double integralOf(const std::vector<CellValues>& sets, const ImageGrid& grid, Progress& progress)
 {
   return dispatchDimension(grid.Dimension(), integrate<1>, integrate<2>, integrate<3>)(

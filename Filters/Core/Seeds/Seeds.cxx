@@ -20,6 +20,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Sides are divided by each other, so that each must be positive and finite.
 template <int Dimension>
 void checkLengths(const Point<Dimension>& lengths)
 {
@@ -159,10 +160,9 @@ template <int Dimension>
 class JitteredBoxes
 {
 public:
-  // Makes points from number `firstPoint` on.
+  // Makes points from number `firstPoint` on. A point's random word depends only on its number and
+  // axis, so that any part of the pattern has the same bits.
   JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed, std::int64_t firstPoint,
-    // A point's random word depends only on its number and axis, so that any part of the pattern
-    // has the same bits.
     PointSpan<Dimension> unitPoints, Progress& progress)
     : Lengths(lengths)
     , Order(shortestFirst<Dimension>(lengths))
@@ -402,6 +402,7 @@ void generateLattice(
   generateLatticeFrom<Dimension>(size, 0, unitPoints, context);
 }
 
+// Seeds are at the centres of the cells, in fractions of the box.
 template <int Dimension>
 void generateLatticeFrom(const GridSize<Dimension>& size, std::int64_t first,
   PointSpan<Dimension> unitPoints, const Context& context)
@@ -417,6 +418,7 @@ void generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t rand
   generateJitteredLatticeFrom<Dimension>(size, randomSeed, 0, unitPoints, context);
 }
 
+// The counter begins with the words of the first cell, so that a part has the bits of the whole.
 template <int Dimension>
 void generateJitteredLatticeFrom(const GridSize<Dimension>& size, std::uint64_t randomSeed,
   std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context)

@@ -153,11 +153,14 @@ public:
   }
 
 private:
+  // Writes where the first step's particles are, in the physical space of a grid, before those of
+  // the second step.
   void WriteFirst(const ImageGrid& grid, SeriesPositions& to, Progress& progress)
   {
     const std::int64_t count = this->First.Count();
     writePhysical<D>(grid, this->First.Span(), progress, to.Span().Part(0, count));
   }
+  // The same for the second step's particles, after those of the first.
   void WriteSecond(const ImageGrid& grid, SeriesPositions& to, Progress& progress)
   {
     const std::int64_t count = this->Second.Count();

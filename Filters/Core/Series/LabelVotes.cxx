@@ -64,6 +64,7 @@ public:
     });
   }
 
+  // Writes the label with the largest mass of each cell, -1 for cells without mass.
   void Write(std::int64_t* winners)
   {
     // Most cells have votes for one label only, so that just the other votes are sorted and summed.
@@ -193,6 +194,7 @@ std::vector<std::int64_t> LabelVotes<D>::Count(
   {
     return winners;
   }
+  // Chunks of about so many cells bound the memory of the counts.
   constexpr std::int64_t atOnce = std::int64_t{ 1 } << 14;
   const std::int64_t layers = this->Part.Cells[D - 1];
   // Cells in a layer of the part.

@@ -31,6 +31,8 @@ std::int64_t cellAt(const ImageGrid& grid, const double* index)
 
 } // namespace
 
+// Tuples with equal keys get the number of the first of them, over both steps: a label is the same
+// wherever it occurs.
 std::vector<std::int64_t> findEqual(
   const std::array<std::int64_t, 2>& tuples, const TupleKey& keyOf)
 {
@@ -66,6 +68,7 @@ SeriesLabels::SeriesLabels(
   (this->*add)(1, particles.To->Span(), particles.Clouds[1]);
 }
 
+// Two votes for each part of a particle, one for each step.
 double SeriesLabels::BytesOfVotes(std::int64_t particles) const
 {
   return sizeof(LabelVote<3>) * 2.0 * this->Parts * static_cast<double>(particles);

@@ -55,6 +55,8 @@ template <int Dimension, class Real>
 Sent<Real> distribute(const SplatSetup<Dimension, Real>& setup, const std::int64_t* keys,
   const std::vector<LatticePart<Dimension>>& wanted, Progress& progress)
 {
+  // Blocks bound the array of cells; particles are visited in order, so that each rank receives
+  // them in the order of their numbers.
   constexpr int block = 1024;
   const SplatParticles<Dimension, Real>& particles = setup.Job.Particles;
   Sent<Real> sent;

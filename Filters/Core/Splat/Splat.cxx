@@ -93,6 +93,7 @@ public:
   }
 
 private:
+  // Threads clear ranges of cells in parallel, as new memory is slow to write for the first time.
   void Clear(Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
@@ -104,6 +105,8 @@ private:
       16 * grain);
   }
 
+  // Chooses how the threads divide the particles of a slice. Each way adds the particles of a cell
+  // in their order, so that the sums have the same bits.
   void AddSlice(std::int64_t first, std::int64_t count, Progress& progress)
   {
     const int tasks = progress.Threads().Concurrency();

@@ -13,6 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
+// Rows of cells are along axis 0, 64 cells a word.
 template <int Dimension>
 using Cell = std::array<std::int64_t, Dimension>;
 
@@ -28,6 +29,7 @@ const std::uint64_t* occupiedRow(const TableView<Dimension>& tables, const Cell<
   return tables.Occupied + row * tables.WordsPerRow;
 }
 
+// Whether a cell of a row has mass.
 bool isSet(const std::uint64_t* row, std::int64_t column)
 {
   return (row[column >> 6] >> (column & 63)) & 1;
@@ -116,6 +118,7 @@ bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point)
   return false;
 }
 
+// Tables without bits have mass in all cells: the point stays.
 template <int Dimension>
 Point<Dimension> nearestMass(
   const TableView<Dimension>& tables, const Point<Dimension>& point, const Point<Dimension>& sides)

@@ -4,6 +4,7 @@
 // inside of the grid, the mean of the cells' centres is the particle's place: mass and centroid are
 // kept. Included by SplatKernels.txx.
 
+// Rounds towards 0, four coordinates at a time: for coordinates from 0 on this is the cell.
 RT_INLINE FourCells truncated(const Four& x)
 {
   return __builtin_convertvector(x, FourCells);
@@ -266,6 +267,7 @@ enum class Covered
   All
 };
 
+// Both boxes are half-open ranges of cells along each axis.
 template <int Dimension>
 RT_INLINE Covered coveredBy(const CellBox<Dimension>& reached, const CellBox<Dimension>& box)
 {
@@ -361,6 +363,7 @@ public:
   }
 
 private:
+  // Without a box, the whole grid is one.
   RT_INLINE FixedSplat(const SplatJob<Dimension, Real>& job, const CellBox<Dimension>* box)
     : Job(job)
     , JobAxes(job)
@@ -406,6 +409,7 @@ private:
                       : 0;
   }
 
+  // No particle is near the border or the face of the box: each adds all of its weights.
   RT_INLINE void AddWhole()
   {
     const CellMemory<Dimension> memory = this->Job.Memory; // as the cells might alias the job

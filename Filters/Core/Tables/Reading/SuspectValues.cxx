@@ -128,6 +128,7 @@ std::string advice(const std::string& fillName, const std::string& range)
     "ValidRange" + (range.empty() ? "" : " = " + range) + " leaves it out";
 }
 
+// The range of ValidRange without a lower bound.
 std::string upTo(double value)
 {
   return textOf(-Unbounded) + " " + textOf(value);
@@ -216,6 +217,8 @@ void merge(const LowestValue& part, LowestValue& all)
   all.Largest = largest;
 }
 
+// The largest density gives one line, or else white does; the values that Clamp takes as 0 may give
+// another one.
 std::vector<std::string> describeSuspect(const SuspectValues& values, const ValuePlaces& places,
   const std::function<double()>& shareOfLargest)
 {
