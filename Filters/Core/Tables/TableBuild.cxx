@@ -447,6 +447,7 @@ private:
 
 } // namespace
 
+// A line has no tiles, so that moments are about its first node and Origin is 0.
 void buildTables(const TableBuild<1>& build)
 {
   const std::int64_t size = build.Tables.Cells[0];
