@@ -116,7 +116,7 @@ Lists placesOf(const Lists& keys, const Ranks& ranks, Progress& progress)
 
 // The places of this rank's elements among those of all. Keys go to their sorters and places come
 // back: two all-to-all exchanges.
-std::vector<std::int64_t> locateInCells(
+std::vector<std::int64_t> locateKeys(
   std::int64_t count, const std::int64_t* keys, const Ranks& ranks, Progress& progress)
 {
   const AllKeys all(count, keys, ranks);
@@ -156,7 +156,7 @@ RankOrder::RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t 
   const Ranks& ranks, Progress& progress)
   : Group(ranks)
 {
-  const std::vector<std::int64_t> places = locateInCells(count, keys, ranks, progress);
+  const std::vector<std::int64_t> places = locateKeys(count, keys, ranks, progress);
   const std::int64_t all = sumOverRanks(ranks, count);
   const std::int64_t chunks = (all + grain - 1) / grain;
   // Ranks share whole chunks, nearly evenly.
