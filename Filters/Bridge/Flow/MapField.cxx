@@ -24,6 +24,7 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   , Measured(this->OwnPart)
   , Kept(this->OwnPart)
 {
+  // A single rank computes, keeps and writes the whole lattice: all parts above are the same one.
   if (ranks.AreSeveral())
   {
     this->FindParts(samples, wanted, ranks);
@@ -37,6 +38,7 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   const double scratch = D == 3 ? 0.0 : real * D * kept;
   const double scalars = hasTarget ? 3.0 : 2.0;
   requireMemory({ purpose, real * (3.0 * vectors + scalars * count) + scratch });
+  // The output gets this array itself in Write, so that displacements are not copied.
   this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, static_cast<vtkIdType>(vectors));
   if (D != 3)
   {
@@ -50,6 +52,7 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
 template <int D>
 void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks)
 {
+  // The lattice has only those axes along which the image has several points, in the image's order.
   const Extent& whole = samples.Extent();
   int axis = 0;
   for (int a = 0; a < 3; ++a)
@@ -60,6 +63,8 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
       this->Axes[static_cast<std::size_t>(axis++)] = a;
     }
   }
+  // Every rank finds the parts of all: receivers know without messages who holds which sample. With
+  // more ranks than layers, some parts are empty.
   for (const Extent& extent : dividedExtent(whole, ranks.Count()))
   {
     LatticePart<D> part{ {}, {} };
@@ -76,6 +81,9 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
     }
     this->Held.push_back(this->BoxOf(part));
   }
+  // Central differences (paper, Section 4.2, Figure 6) at a sample need one sample on each side.
+  // The error of a block needs all samples of the blocks that this rank owns, up to their upper
+  // corners, which may belong to the next rank.
   this->Wanted = latticePartOf<D>(wanted, samples);
   this->Measured = this->OwnPart.Around(this->Lattice)
                      .With(MapBlocks<D>::SamplesOf(MapBlocks<D>::Of(this->Lattice, this->OwnPart)));
@@ -91,6 +99,7 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
 template <int D>
 TupleBox MapField<D>::BoxOf(const LatticePart<D>& part) const
 {
+  // Axes that the lattice lacks have one layer of tuples in the image, none if the part is empty.
   TupleBox box{};
   std::copy(this->Start.begin(), this->Start.end(), box.Low.begin());
   box.Cells.fill(part.IsEmpty() ? 0 : 1);
@@ -106,6 +115,7 @@ TupleBox MapField<D>::BoxOf(const LatticePart<D>& part) const
 template <int D>
 PointSpan<D> MapField<D>::Positions()
 {
+  // Shape: (samples in Kept) x D doubles, axis 0 of the lattice fastest.
   double* first =
     D == 3 ? this->Displacement->GetPointer(3 * this->Ahead) : this->PositionBuffer.data();
   return { first, this->Kept.Count() };
@@ -128,10 +138,14 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   const DensitySource<D>& density, Progress& progress, vtkDataSetAttributes* output,
   const MapTarget<D>* target)
 {
+  // Every rank knows the images of its own part, and receives those around it before it
+  // differentiates.
   if (this->Processes.AreSeveral())
   {
     this->Complete();
   }
+  // A value for each wanted sample; a rank that wants none has arrays without tuples, so that all
+  // ranks output the same arrays.
   const std::int64_t count = this->Wanted.Count();
   auto divergences = newArray<vtkDoubleArray>("Divergence", 1, count);
   auto determinants = newArray<vtkDoubleArray>("JacobianDeterminant", 1, count);
@@ -146,6 +160,8 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   {
     output->AddArray(costs);
   }
+  // In 3D the array was made long enough for the positions, too: what is behind the displacements
+  // is no output.
   this->Displacement->SetNumberOfTuples(static_cast<vtkIdType>(count));
   output->SetVectors(std::exchange(this->Displacement, nullptr));
   output->AddArray(divergences);

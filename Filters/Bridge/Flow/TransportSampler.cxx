@@ -31,11 +31,14 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Particles in a range of a thread: enough to hide the cost of scheduling, few enough to divide
+// evenly.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 // The times of the output positions: FlowTime, or those of a path's points.
 std::vector<double> timesOf(const TransportSampler& sampler)
 {
+  // A path has as many line segments as the integration has steps, evenly spaced in [0, FlowTime].
   const int asked = sampler.Flow.NumberOfSteps;
   const int steps = !sampler.OutputPaths ? 0 : asked > 0 ? asked : FlowOptions::FewestSteps;
   std::vector<double> times;
@@ -99,8 +102,11 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const ImageGrid& grid = density.Grid();
   const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
   const Ranks& ranks = progress.Group();
+  // Given seeds stay on their ranks and are numbered through all of them. A pattern is divided:
+  // each rank makes and moves the seeds [First, First + Count), which are the same as on one rank.
   const SeedShare share = given ? SeedShare(given->GetNumberOfPoints(), ranks)
                                 : SeedShare(pattern.Count(), ranks.Count(), ranks.Own());
+  // No rank has a seed: the output is empty, and all ranks agree on it.
   if (given && share.All == 0)
   {
     return {};
@@ -117,6 +123,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
       { "particles", Cost::Write * count * static_cast<double>(times.size()) },
       { "arrays", addsArrays ? Cost::Write * count : 0.0 } });
   const std::string purpose = describeParticles(count, sampler.OutputPaths);
+  // Shape of the seeds: Count x D doubles in index space; of the positions: Count x times x D.
   ParticleSet<D> particles(
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
   particles.SetShare(share.First, share.All);
@@ -126,6 +133,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   const std::string wholeFor = times.size() > 1 ? "OutputPaths"
     : times.back() < 1.0                        ? "a FlowTime other than 1"
                                                 : optimal.WholeFor();
+  // Only the seeds of a pattern have equal masses that together are the density's mass, so that the
+  // optimal map may count them exactly in boxes of cells. Given seeds are single points.
   const OptimalNeeds needs{ optimal, given ? 0.0 : static_cast<double>(share.All) };
   // Tiles serve a run of all particles from t = 0 to 1 in one pass. Positions at times between need
   // the tables as a whole.
@@ -146,6 +155,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   }
   const TransportPlan<D> plan = cache.Plan<D>(needs, options, density, stages["optimal map"]);
   report.Transport = TransportReport(plan);
+  // Both are in the index space of the density; ParticleSet::Write converts to physical space.
   const ConstPointSpan<D> seeds = particles.Seeds();
   const PointSpan<D> positions = particles.Positions();
   const FlowSeeds<D> starts = given ? FlowSeeds<D>(seeds) : FlowSeeds<D>(seeds).AsSamples();
@@ -181,6 +191,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     failOutOfMemory(caught, { purpose, sort });
   }
 
+  // A particle is a point of the output, a path is a cell: the seeds' arrays go where one tuple a
+  // seed is.
   if (given)
   {
     output->GetAttributes(sampler.OutputPaths ? vtkDataObject::CELL : vtkDataObject::POINT)
@@ -198,6 +210,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
   report.ParticlesMoved = sumOverRanks(ranks, report.Flow.MovedToMass);
   report.Particles = share.All;
+  // Values are sampled on the rank that owns the position, after the exchange: it has the cells
+  // there.
   if (addsArrays)
   {
     auto* places = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());

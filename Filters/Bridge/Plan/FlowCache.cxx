@@ -17,6 +17,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// The peak of the solution of an optimal map from the uniform measure, a density on the same grid.
 template <int D>
 MemoryPlan memoryOfMap(const InputDensity& density, const OptimalNeeds& needs, const Ranks& ranks)
 {
@@ -30,6 +31,8 @@ MemoryPlan memoryOfMap(const InputDensity& density, const OptimalNeeds& needs, c
 template <int D>
 void addSetting(const OptimalSetting& setting, const PlanEnd<D>& end, DataIdentity& identity)
 {
+  // IsOptimal does not count: from the uniform measure, the same solution serves Method Optimal and
+  // Certify.
   identity.AddNumbers(&setting.Tolerance, 1);
   identity.AddNumbers(end.High.data(), D);
 }
@@ -40,12 +43,17 @@ const SharedFlow& FlowCache::Update(
   InputDensity& density, Progress& progress, FlowTables tables, const OptimalNeeds& needs)
 {
   // Nobody else may own what is kept here while other tables take its memory.
+  // Tables of the other kind cannot give their memory to the new ones.
   if (!this->Tables.IsEmpty() && this->Tables.Cached<SharedFlow>()->Tables() != tables)
   {
     this->Release();
   }
+  // Modification times decide locally whether something must be read; one rank in need takes all
+  // along, because hashing and building are collective.
   const bool isKnown = onAllRanks(progress.Group(), !this->IsOutdated(density));
   Stages stages(progress, { { "hash", isKnown ? 0.0 : 5.0 }, { "tables", 95 } });
+  // Called only if no filter of the process has the tables of these values. `previous` gives its
+  // memory to the new tables: two sets of tables side by side would double the peak.
   const auto make = [&](std::shared_ptr<SharedFlow> previous) {
     const auto build = dispatchDimension(
       density.Grid().Dimension(), &FlowCache::Build<1>, &FlowCache::Build<2>, &FlowCache::Build<3>);
@@ -54,8 +62,11 @@ const SharedFlow& FlowCache::Update(
   // Flows with tiles are not shared because they read the density of one filter's run.
   const auto flow = this->Tables.Get<SharedFlow>(density.Identity(), progress.Group(),
     stages["hash"], tables == FlowTables::Whole ? Sharing::Process : Sharing::None, make);
+  // A flow that another filter has made may be older than the last one here: time never goes back.
   this->Time = std::max(this->Time, flow->BuildTime());
   flow->Attach(density, stages["tables"]);
+  // Suspect values, such as fill values, are reported when they are new to this filter, even where
+  // another filter has built the tables.
   if (!isKnown)
   {
     density.ReportSuspect(flow->Suspect(), stages["tables"]);
@@ -67,9 +78,11 @@ template <int D>
 std::shared_ptr<SharedFlow> FlowCache::Build(InputDensity& density, FlowTables tables,
   const OptimalNeeds& needs, std::shared_ptr<SharedFlow> previous, Progress& progress)
 {
+  // Maps and corrections belong to the old tables, and their memory is needed for the new ones.
   this->ForgetMaps();
   if (needs.Setting.NeedsMap())
   {
+    // With the map's memory the tables' is asked for, unless those before leave theirs.
     const bool hasMemory = previous && previous->HasFlow<D>();
     const double bytes = RectifiedFlow<D>::MemoryFor(density.Grid().Size<D>());
     requireMemory(memoryOfMap<D>(density, needs, progress.Group()).With(hasMemory ? 0.0 : bytes));
@@ -82,6 +95,7 @@ TransportPlan<D> FlowCache::Plan(
   const OptimalNeeds& needs, const FlowOptions& options, InputDensity& density, Progress& progress)
 {
   const OptimalSetting& setting = needs.Setting;
+  // The plan begins at the uniform measure, so that it has one end: the density on its own grid.
   PlanEnd<D> end = planEnd<D>(PlanEnd<D>::On(density.Grid()), density);
   end.Flow = this->Flow<D>();
   const PlanOptions chosen = planOptions(setting, options);
@@ -91,6 +105,7 @@ TransportPlan<D> FlowCache::Plan(
   {
     DataIdentity identity = this->Identity();
     addSetting<D>(setting, end, identity);
+    // The solver's memory lives only during this call; the solved map stays in the slot.
     const auto solve = [&]() {
       return withRequiredMemory(memoryOfMap<D>(density, needs, progress.Group()),
         [&]() { return TransportPlan<D>::Solve(nullptr, end, chosen.Optimal, stages["map"]); });
@@ -102,6 +117,8 @@ TransportPlan<D> FlowCache::Plan(
   {
     this->Map.Release();
   }
+  // Exact counts of samples take memory besides the map's; it is checked when the map's solution
+  // has returned its own.
   needs.RequireForSamples<D>(end.Size, progress.Group());
   return withMemory({ std::string("the optimal map (") + setting.Advice() + ")",
                       TransportPlan<D>::MemoryFor(end.Size, end.Size) },
@@ -112,6 +129,8 @@ template <int D>
 std::shared_ptr<const AreaCorrection<D>> FlowCache::Correction(const TransportPlan<D>& plan,
   const OptimalSetting& setting, const FlowOptions& options, Progress& progress)
 {
+  // The correction of a flow removes errors of its integration, so that all options count. That of
+  // an optimal map depends on the tolerance and the lengths of the box alone.
   const auto flow = this->Flow<D>();
   DataIdentity identity = this->Identity();
   FlowOptions resolved;
@@ -134,6 +153,7 @@ std::shared_ptr<const AreaCorrection<D>> FlowCache::Correction(const TransportPl
         : std::make_shared<const AreaCorrection<D>>(*flow, resolved, EqualizeOptions(), progress);
     });
   };
+  // Each rank makes its own correction, the same bits as on the others: SoloRanks, and no exchange.
   return this->Areas.Get<const AreaCorrection<D>>(
     identity, SoloRanks::Get(), progress, Sharing::Process, make);
 }

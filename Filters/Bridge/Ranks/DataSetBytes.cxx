@@ -34,6 +34,9 @@ namespace
 
 // What VTK's message has not: the geometry of images in full, and which arrays are active (its
 // format puts these first).
+// A message is this header, the types of its arrays (one int each), and the bytes of
+// vtkGenericDataObjectWriter. Ranks run the same program on machines of one kind, so that bytes
+// need no conversion.
 struct Header
 {
   std::uint64_t Arrays = 0; // whose types follow
@@ -43,11 +46,13 @@ struct Header
   std::array<std::array<int, vtkDataSetAttributes::NUM_ATTRIBUTES>, 2> Active{};
 };
 
+// The order of the types in a message: the arrays of points first, then those of cells.
 constexpr std::array<int, 2> owners = { vtkDataObject::POINT, vtkDataObject::CELL };
 
 Header headerOf(vtkDataSet* data)
 {
   Header header;
+  // Row-major 3 x 3 direction, as vtkMatrix3x3 has it.
   if (auto* image = vtkImageData::SafeDownCast(data))
   {
     header.IsImage = true;
@@ -58,6 +63,8 @@ Header headerOf(vtkDataSet* data)
   }
   for (std::size_t i = 0; i < owners.size(); ++i)
   {
+    // For each attribute type (scalars, vectors, global ids, ...) the index of its array, -1 for
+    // none.
     data->GetAttributes(owners[i])->GetAttributeIndices(header.Active[i].data());
   }
   return header;
@@ -66,6 +73,7 @@ Header headerOf(vtkDataSet* data)
 // The types of the arrays of numbers, which VTK may replace by others of the same size.
 std::vector<int> typesOf(vtkDataSet* data)
 {
+  // The names of types in VTK's legacy format do not tell all types of one size apart.
   std::vector<int> types;
   for (const int owner : owners)
   {
@@ -78,6 +86,8 @@ std::vector<int> typesOf(vtkDataSet* data)
   return types;
 }
 
+// Gives arrays that VTK has read as another type of the same size their own type back. Bits are
+// copied, not converted. Arrays of text have no other type and stay.
 void restoreTypes(vtkDataSet* data, const std::vector<int>& types)
 {
   std::size_t next = 0;
@@ -87,12 +97,14 @@ void restoreTypes(vtkDataSet* data, const std::vector<int>& types)
     for (int i = 0; i < attributes->GetNumberOfArrays() && next < types.size(); ++i, ++next)
     {
       vtkDataArray* array = attributes->GetArray(i);
+      // nullptr: an array of text, which is no vtkDataArray.
       if (!array || array->GetDataType() == types[next])
       {
         continue;
       }
       const auto made =
         vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(types[next]));
+      // Bits of another size cannot be copied: the array stays as the reader has made it.
       if (made->GetDataTypeSize() != array->GetDataTypeSize())
       {
         continue;
@@ -123,10 +135,13 @@ Bytes bytesOfDataSet(vtkDataSet* data)
   {
     plain.TakeReference(data->NewInstance());
   }
+  // A shallow copy, because the active attributes of the caller's data set must not change.
   plain->ShallowCopy(data);
   for (const int owner : owners)
   {
     vtkDataSetAttributes* attributes = plain->GetAttributes(owner);
+    // Without active attributes the writer keeps the order of the arrays, so that indices stay
+    // valid.
     for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
     {
       attributes->SetActiveAttribute(-1, type);
@@ -138,6 +153,7 @@ Bytes bytesOfDataSet(vtkDataSet* data)
     throw Failure("Data of the type " + std::string(data->GetClassName()) +
       " cannot be gathered from several ranks; convert them to an unstructured grid before");
   }
+  // Types and attributes of the caller's data set: those of the copy are no longer active.
   const std::vector<int> types = typesOf(data);
   Header header = headerOf(data);
   header.Arrays = types.size();
@@ -158,12 +174,14 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count)
   vtkNew<vtkCharArray> message;
   // VTK takes no constant memory, but only reads it.
   message->SetArray(const_cast<char*>(bytes + begin), static_cast<vtkIdType>(count - begin), 1);
+  // The object owns its arrays: nothing refers to `bytes` afterwards, which the caller may free.
   const vtkSmartPointer<vtkDataObject> object = vtkCommunicator::UnMarshalDataObject(message);
   vtkSmartPointer<vtkDataSet> made = vtkDataSet::SafeDownCast(object);
   if (!made)
   {
     throw Failure("Data of another rank could not be read");
   }
+  // The image that VTK has read lacks the geometry in full: its arrays go to one that has it.
   if (header.IsImage)
   {
     const auto image = vtkSmartPointer<vtkImageData>::New();
@@ -178,6 +196,7 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count)
     image->GetFieldData()->ShallowCopy(made->GetFieldData());
     made = image;
   }
+  // The attributes come last, when each array is the one that stays.
   restoreTypes(made, types);
   for (std::size_t i = 0; i < owners.size(); ++i)
   {

@@ -40,6 +40,8 @@ namespace
 // The bits of the coordinates, or the global id.
 PointIdentity identityOf(vtkPointSet* points, vtkIdType i, vtkDataArray* ids)
 {
+  // An id fills the first of the three words; the others are 0. Ranks agree on one kind of identity
+  // for all points (see repeatedIn), so that ids are not compared with coordinates.
   PointIdentity identity{};
   if (ids)
   {
@@ -52,6 +54,8 @@ PointIdentity identityOf(vtkPointSet* points, vtkIdType i, vtkDataArray* ids)
   return identity;
 }
 
+// Whether some cell of a set connects points: a line, a face or a solid. Vertices alone mean
+// particles.
 bool connectsPoints(vtkPointSet* set)
 {
   bool connects = false;
@@ -75,6 +79,7 @@ std::vector<unsigned char> repeatedIn(
   }
   vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
   const bool isWhole = ids && ids->GetNumberOfTuples() >= own->GetNumberOfPoints();
+  // Global ids serve only if every rank with points has one for each of its points.
   ids = onAllRanks(ranks, isWhole || counted.Count() == 0) ? ids : nullptr;
   return duplicatePoints(
     counted.Count(),
@@ -82,8 +87,11 @@ std::vector<unsigned char> repeatedIn(
     ranks);
 }
 
+// The set itself, or an empty one in its place: where there is no input, where a data set has no
+// vtkPoints object (VTK allows that), and on all ranks but the first if all hold the same data.
 vtkSmartPointer<vtkPointSet> countedSet(vtkPointSet* own, const Ranks& ranks)
 {
+  // The comparison is collective: each rank makes it, also one without data.
   const bool isOne = ranks.AreSeveral() && areSameOnRanks(own, ranks) && !ranks.IsFirst();
   if (own && own->GetPoints() && !isOne)
   {
@@ -109,6 +117,8 @@ struct CopyIntegers
   }
 };
 
+// Integer types of VTK in contiguous memory or not, dispatched to their own type: ids beyond 2^53
+// are no doubles.
 using Integers = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Integrals>;
 
 // Those that may hold keys of a set, the preferred one first; nullptr for those that do not.
@@ -119,6 +129,7 @@ std::array<vtkDataArray*, 2> keyArrays(vtkPointSet* points)
   const CountedPoints none(vtkNew<vtkPolyData>(), "input point set");
   for (vtkDataArray*& array : arrays)
   {
+    // A copy of no values tells whether the dispatch knows the array's type.
     CopyIntegers copy;
     if (array &&
       (array->GetNumberOfComponents() != 1 ||
@@ -134,6 +145,7 @@ std::array<vtkDataArray*, 2> keyArrays(vtkPointSet* points)
 // The points without these flags that are not those of a lower rank, too.
 CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& ranks)
 {
+  // Ghost flags come first: they cost no message.
   CountedPoints counted(points, "input point set", ghosts);
   // Particles, and their paths, have a number each.
   if (!ranks.AreSeveral() ||
@@ -141,6 +153,8 @@ CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& 
   {
     return counted;
   }
+  // About 100 bytes a point: identities of 24 bytes, sent, received and sorted. A flag for each
+  // point of the set, with the bits `ghosts` for those that do not count.
   std::vector<unsigned char> left;
   withMemory({ "a comparison of the points of ranks",
                100.0 * static_cast<double>(points->GetNumberOfPoints()) },
@@ -165,6 +179,7 @@ CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& 
 
 vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& ranks)
 {
+  // On one rank the filter treats the ghosts of its input itself.
   if (!ranks.AreSeveral())
   {
     return given;
@@ -172,10 +187,12 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
   const vtkSmartPointer<vtkPointSet> set = countedSet(given, ranks);
   const CountedPoints counted = countedOf(set, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
   const auto count = static_cast<vtkIdType>(counted.Count());
+  // In the usual case all points count, and nothing is copied.
   if (count == set->GetNumberOfPoints())
   {
     return set;
   }
+  // Arrays with fewer tuples than points cannot be copied by ids; they come back without tuples.
   const TruncatedArrays tooShort(set);
   const vtkSmartPointer<vtkPointSet> whole = tooShort.RemovedFrom(set.Get());
   vtkNew<vtkIdList> kept;
@@ -185,6 +202,7 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
     kept->SetId(i, static_cast<vtkIdType>(counted.Point(i)));
   }
   vtkSmartPointer<vtkPointSet> own;
+  // The cells refer to points that do not count any more, so that each point gets a vertex.
   vtkNew<vtkCellArray> vertices;
   for (vtkIdType i = 0; i < count; ++i)
   {
@@ -203,6 +221,7 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
     own = grid;
   }
   copyPoints(whole, kept, own);
+  // Its flags have been obeyed; filters downstream would leave out points a second time.
   own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   tooShort.AddEmptyTo(own);
   own->GetCellData()->Initialize(); // its cells are others
@@ -219,10 +238,14 @@ DistributedPoints::DistributedPoints(vtkPointSet* own, unsigned char ghosts, con
 
 void DistributedPoints::FindKeys(const Ranks& ranks)
 {
+  // The order on one rank is that of the points.
   if (!ranks.AreSeveral())
   {
     return;
   }
+  // SeedId first, then global ids: the first array that all ranks with points have orders them.
+  // Without one, the order is that of the ranks, and results may differ in the last bits from
+  // those of one rank.
   for (vtkDataArray* array : keyArrays(this->Points))
   {
     if (onAllRanks(ranks, array != nullptr || this->Number.Count() == 0))
@@ -246,6 +269,7 @@ vtkSmartPointer<vtkDataArray> DistributedPoints::TuplesOf(vtkDataArray* array) c
   {
     return array;
   }
+  // An array of the same type and layout, one tuple for each counted point.
   const auto copy = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
   copy->SetNumberOfComponents(array->GetNumberOfComponents());
   copy->SetNumberOfTuples(static_cast<vtkIdType>(this->Number.Count()));

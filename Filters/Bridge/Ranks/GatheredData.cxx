@@ -51,6 +51,8 @@ bool isFirst(const std::vector<Keys>& all, std::size_t rank, const Key& key)
     [&](const Keys& lower) { return std::find(lower.begin(), lower.end(), key) != lower.end(); });
 }
 
+// One part of a message: three lengths of 8 bytes, then the name, the list of short arrays, and the
+// data set without these. All lengths are in bytes.
 void append(const DataPart& part, Bytes& to)
 {
   const TruncatedArrays tooShort(part.Data);
@@ -67,6 +69,7 @@ void append(const DataPart& part, Bytes& to)
 std::vector<DataPart> partsFrom(const Bytes& bytes)
 {
   std::vector<DataPart> parts;
+  // A rank may have sent no part: the loop then runs over nothing.
   for (const char* at = bytes.data(); at != bytes.data() + bytes.size();)
   {
     constexpr std::size_t head = 3 * sizeof(std::uint64_t);
@@ -86,6 +89,8 @@ std::vector<DataPart> partsFrom(const Bytes& bytes)
 }
 
 // Sends the parts of this rank that count.
+// The same bytes for every receiver, or for the first rank alone: to all others it sends messages
+// without bytes, because the exchange is collective.
 std::vector<Bytes> exchange(Bytes own, const Ranks& ranks, Receivers receivers)
 {
   if (receivers == Receivers::All)
@@ -102,6 +107,8 @@ std::vector<Bytes> exchange(Bytes own, const Ranks& ranks, Receivers receivers)
 GatheredParts gatherDataParts(
   const std::vector<DataPart>& own, const Ranks& ranks, Receivers receivers)
 {
+  // Numbers and fingerprints of 16 bytes a part tell every rank which parts are repeated, before
+  // any data are sent.
   Keys keys;
   for (const DataPart& part : own)
   {
@@ -116,6 +123,7 @@ GatheredParts gatherDataParts(
   const auto self = static_cast<std::size_t>(ranks.Own());
   GatheredParts gathered;
   const bool receives = receivers == Receivers::All || self == 0;
+  // If all ranks have the same parts, as when each of them reads the whole file, nothing is sent.
   gathered.AreWhole =
     std::all_of(all.begin(), all.end(), [&](const Keys& keysThere) { return keysThere == all[0]; });
   if (gathered.AreWhole)
@@ -123,6 +131,7 @@ GatheredParts gatherDataParts(
     gathered.Parts = receives ? own : std::vector<DataPart>();
     return gathered;
   }
+  // Rank 0 sends nothing to itself where it is the only receiver.
   Bytes sent;
   for (std::size_t i = 0; i < own.size() && (self > 0 || receivers == Receivers::All); ++i)
   {
@@ -131,14 +140,19 @@ GatheredParts gatherDataParts(
       append(own[i], sent);
     }
   }
+  // A rank's own parts are not read from bytes: they stay the data sets that they are, with all
+  // arrays.
   std::vector<Bytes> received = exchange(std::move(sent), ranks, receivers);
   for (std::size_t rank = 0; rank < received.size() && receives; ++rank)
   {
     std::vector<DataPart> parts = rank == self ? own : partsFrom(received[rank]);
+    // Bytes and data sets of one rank only are in memory together.
     received[rank] = Bytes();
     std::size_t next = 0;
     for (std::size_t i = 0; i < all[rank].size(); ++i)
     {
+      // Senders left out what a lower rank has, by the same rule: messages have only the parts that
+      // count.
       if (isFirst(all, rank, all[rank][i]))
       {
         DataPart& part = parts[rank == self ? i : next++];
@@ -147,6 +161,7 @@ GatheredParts gatherDataParts(
       }
     }
   }
+  // The order is that of numbers, then of ranks, whatever ranks had which part.
   std::stable_sort(gathered.Parts.begin(), gathered.Parts.end(),
     [](const DataPart& a, const DataPart& b) { return a.Number < b.Number; });
   return gathered;
@@ -159,6 +174,7 @@ namespace
 // with errors of a few units in the last place of the farthest coordinate.
 double roundingOf(vtkPolyData* all)
 {
+  // Absolute coordinates matter: far from the origin, rounding is larger than near it.
   double bounds[6];
   all->GetPoints()->GetBounds(bounds);
   double farthest = 0.0;
@@ -166,6 +182,7 @@ double roundingOf(vtkPolyData* all)
   {
     farthest = std::max(farthest, std::abs(bound));
   }
+  // Units in the last place. Points at a larger distance are different ones.
   constexpr double units = 4.0;
   return units * farthest *
     (all->GetPoints()->GetDataType() == VTK_FLOAT ? std::numeric_limits<float>::epsilon()
@@ -176,6 +193,8 @@ double roundingOf(vtkPolyData* all)
 // rounding of one in a lower part is merged with it; points of one part stay apart.
 std::vector<vtkIdType> pointsToKeep(vtkPolyData* all, const std::vector<DataPart>& parts)
 {
+  // The points of `all` are those of the parts one after the other: part k has the points [first,
+  // end).
   std::vector<vtkIdType> becomes(static_cast<std::size_t>(all->GetNumberOfPoints()));
   vtkNew<vtkStaticPointLocator> places;
   places->SetDataSet(all);
@@ -195,8 +214,11 @@ std::vector<vtkIdType> pointsToKeep(vtkPolyData* all, const std::vector<DataPart
       for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
       {
         const vtkIdType other = near->GetId(k);
+        // The lowest one wins, so that the result does not depend on the order in which the locator
+        // finds them.
         point = other < first ? std::min(point, other) : point;
       }
+      // The other one may itself have become a point of a still lower part.
       becomes[static_cast<std::size_t>(i)] =
         point < i ? becomes[static_cast<std::size_t>(point)] : i;
     }
@@ -205,6 +227,8 @@ std::vector<vtkIdType> pointsToKeep(vtkPolyData* all, const std::vector<DataPart
   return becomes;
 }
 
+// Cells with new numbers of their points. The number of cells and their order stay, so that cell
+// data do, too. A cell whose corners were merged may become degenerate.
 vtkSmartPointer<vtkCellArray> withPoints(
   vtkCellArray* cells, const std::vector<vtkIdType>& newPoints)
 {
@@ -228,6 +252,7 @@ vtkSmartPointer<vtkCellArray> withPoints(
 // order.
 vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<DataPart>& parts)
 {
+  // A point keeps its arrays from the lowest rank that has it.
   const std::vector<vtkIdType> becomes = pointsToKeep(all, parts);
   vtkNew<vtkIdList> kept;
   std::vector<vtkIdType> newPoints(becomes.size());
@@ -241,11 +266,13 @@ vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<Dat
     }
     else
     {
+      // That point has a lower number, and its new number already.
       newPoints[i] = newPoints[static_cast<std::size_t>(becomes[i])];
     }
   }
   auto joined = vtkSmartPointer<vtkPolyData>::New();
   copyPoints(all, kept, joined);
+  // The four kinds of cells in vtkPolyData's order, to which the cell data belong.
   joined->SetVerts(withPoints(all->GetVerts(), newPoints));
   joined->SetLines(withPoints(all->GetLines(), newPoints));
   joined->SetPolys(withPoints(all->GetPolys(), newPoints));
@@ -254,9 +281,12 @@ vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<Dat
   return joined;
 }
 
+// The set without the cells that another rank has, too. A structured grid keeps all its cells,
+// because its type cannot leave any out.
 vtkSmartPointer<vtkPointSet> withoutGhostCells(vtkPointSet* set)
 {
   const unsigned char* flags = ghostFlags(set, vtkDataObject::CELL, "input point set");
+  // Blanked cells alone need no copy: the filters themselves leave them out.
   const bool hasDuplicates = flags &&
     std::any_of(flags, flags + set->GetNumberOfCells(),
       [](unsigned char flag) { return (flag & vtkDataSetAttributes::DUPLICATECELL) != 0; });
@@ -294,6 +324,8 @@ vtkSmartPointer<vtkPointSet> countedPart(vtkPointSet* own, PointSetKind kind, co
   return part && part->GetNumberOfPoints() > 0 ? part : nullptr;
 }
 
+// All parts appended by one of VTK's filters, which keeps the arrays that all parts have. Field
+// data come from the first part, as VTK's filters for composite data choose.
 template <class AppendT>
 vtkSmartPointer<vtkPointSet> appendWith(const std::vector<DataPart>& parts)
 {
@@ -308,6 +340,8 @@ vtkSmartPointer<vtkPointSet> appendWith(const std::vector<DataPart>& parts)
   return made;
 }
 
+// VTK's filters would skip parts of another type without a word. The ranks that are no receivers
+// have no parts; the error reaches them in the next exchange.
 void requireOneType(const std::vector<DataPart>& parts)
 {
   for (const DataPart& part : parts)
@@ -322,6 +356,7 @@ void requireOneType(const std::vector<DataPart>& parts)
 
 vtkSmartPointer<vtkPointSet> joinWhole(const std::vector<DataPart>& parts, PointSetKind kind)
 {
+  // Pieces of structured grids are put together by their extents, others one after the other.
   vtkDataSet* first = parts.front().Data;
   if (vtkPolyData::SafeDownCast(first))
   {
@@ -338,15 +373,19 @@ vtkSmartPointer<vtkPointSet> joinWhole(const std::vector<DataPart>& parts, Point
 
 vtkSmartPointer<vtkPointSet> joinParts(std::vector<DataPart> parts, PointSetKind kind)
 {
+  // This rank is no receiver, or no rank has points.
   if (parts.empty())
   {
     return nullptr;
   }
   requireOneType(parts);
+  // One part is the whole: without an append filter its cells, arrays and attributes stay as they
+  // are.
   if (parts.size() == 1)
   {
     return vtkPointSet::SafeDownCast(parts.front().Data);
   }
+  // An array that is short on one rank is taken out on all: append filters would read past its end.
   TruncatedArrays tooShort;
   for (const DataPart& part : parts)
   {
@@ -370,6 +409,7 @@ vtkSmartPointer<vtkPointSet> gatherPoints(
   {
     return own;
   }
+  // A rank without points takes part with an empty list: the exchange is collective.
   std::vector<DataPart> parts;
   if (const vtkSmartPointer<vtkPointSet> points = countedPart(own, kind, ranks))
   {

@@ -31,6 +31,7 @@ Extent ownExtent(vtkImageData* image, int owner, const Extent& all)
 {
   const TupleBox box = tuplesOf(all, owner, all);
   vtkUnsignedCharArray* ghosts = image->GetAttributes(owner)->GetGhostArray();
+  // A ghost array with too few tuples says nothing about the rest, and is not read past its end.
   const bool hasFlags = ghosts && ghosts->GetNumberOfTuples() >= box.Count();
   const unsigned char duplicate = owner == vtkDataObject::POINT
     ? +vtkDataSetAttributes::DUPLICATEPOINT
@@ -45,6 +46,7 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
   , Own(own ? vtkSmartPointer<vtkImageData>(own) : vtkSmartPointer<vtkImageData>::New())
   , TooShort(own)
 {
+  // A rank without points gives the empty piece, whose geometry does not count.
   ImagePiece piece;
   if (own && own->GetNumberOfPoints() > 0)
   {
@@ -52,10 +54,12 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
     own->GetExtent(extent.data());
     piece.Points = ownExtent(own, vtkDataObject::POINT, extent);
     piece.Cells = ownExtent(own, vtkDataObject::CELL, extent);
+    // Some readers mark only cells: points outside the own cells then belong to other ranks.
     if (!own->GetPointGhostArray() && !isEmpty(piece.Cells))
     {
       piece.Points = piece.Cells; // where only cells are marked
     }
+    // Origin (3), spacing (3) and direction (9 numbers, row-major) have to agree on all ranks.
     std::copy_n(own->GetOrigin(), 3, piece.Geometry.begin());
     std::copy_n(own->GetSpacing(), 3, piece.Geometry.begin() + 3);
     std::copy_n(own->GetDirectionMatrix()->GetData(), 9, piece.Geometry.begin() + 6);
@@ -67,6 +71,8 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
   {
     throw Failure(this->Joined.Fault);
   }
+  // The names of arrays are compared after those that are too short on some rank have been left
+  // out.
   this->TooShort.AddFromRanks(ranks);
   this->Arrays = commonArrays(this->TooShort.RemovedFrom(own), ranks);
 }
@@ -95,6 +101,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   const Extent& wanted, const std::vector<std::string>& names) const
 {
   ArrayKinds kinds;
+  // Ghost arrays always come along: they say which points and cells have values at all.
   std::copy_if(this->Arrays.begin(), this->Arrays.end(), std::back_inserter(kinds),
     [&](const ArrayKind& kind) {
       return names.empty() || isGhosts(kind) ||
@@ -113,6 +120,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   };
   const BoxExchange points = exchangeOf(vtkDataObject::POINT);
   const BoxExchange cells = exchangeOf(vtkDataObject::CELL);
+  // The tuples of the own image lie in its own extent, duplicates of other ranks among them.
   Extent own = emptyExtent;
   if (this->Own && this->Own->GetNumberOfPoints() > 0)
   {
@@ -121,6 +129,8 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   const vtkSmartPointer<vtkImageData> image = this->MakeImage(wanted);
   std::vector<BoxArrays> arrays;
   std::vector<vtkSmartPointer<vtkDataArray>> kept; // also where one replaces another of its name
+  // `kept` holds the arrays that BoxArrays only points to: those given, which may be contiguous
+  // copies, and those made. A rank without the array gives nothing of it.
   for (const ArrayKind& kind : kinds)
   {
     const TupleBox made = tuplesOf(wanted, kind.Owner, this->Joined.Whole);
@@ -147,6 +157,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
 
 PlaceOwners ownersOf(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks)
 {
+  // Points own the dual cells around them, cells themselves.
   const auto held = [&]() { return grid.IsOnPoints() ? pieces->Points() : pieces->Cells(); };
   return { grid, pieces ? held() : std::vector<Extent>(),
     dividedExtent(grid.Extent(), ranks.Count()), ranks };
@@ -155,12 +166,14 @@ PlaceOwners ownersOf(const ImageGrid& grid, const ImagePieces* pieces, const Ran
 void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& ranks)
 {
   const ImagePieces pieces(image, ranks);
+  // ShallowCopy below replaces field data by those of the gathered part, which has none.
   vtkNew<vtkFieldData> fields;
   fields->ShallowCopy(image->GetFieldData());
   if (isEmpty(pieces.Whole()))
   {
     return;
   }
+  // The grid of the whole image tells consumers what to request next.
   const ImageGrid grid = gridOf(pieces.MakeFrame(), false);
   const Extent wanted = extentToGive(grid.Extent(), output, ranks);
   const vtkSmartPointer<vtkImageData> part = pieces.Gather(wanted);

@@ -31,6 +31,8 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
+// Whether a data object is one of the blocks of a composite data set. It tells that the executive
+// now iterates over blocks, which no key of a request says.
 bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
 {
   const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
@@ -45,6 +47,8 @@ bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
 }
 
 // `what` begins the message.
+// Readers may ignore the requested extent and give a part of the image, such as the piece of one
+// rank. Tables of a part would be those of another density.
 void requireWholeExtent(vtkInformation* input, const std::string& what)
 {
   vtkImageData* image = vtkImageData::GetData(input);
@@ -53,6 +57,7 @@ void requireWholeExtent(vtkInformation* input, const std::string& what)
   {
     return;
   }
+  // An extent beyond the announced one has all that is needed.
   const int* extent = image->GetExtent();
   bool isWhole = true;
   for (int a = 0; a < 6; a += 2)
@@ -77,6 +82,7 @@ DataPiece requestedPiece(vtkInformation* request, vtkInformationVector* outputs)
                 : pieceOfRank();
 }
 
+// Programs that call Update() request no time; ParaView and vtkForceTime do.
 bool isTimeRequested(vtkInformationVector* outputs)
 {
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
@@ -103,6 +109,7 @@ std::vector<std::uint64_t> fingerprintsOf(const std::vector<std::vector<vtkDataO
 // Describes the ports with data that are neither the same on all ranks nor on the first one only.
 std::string differenceOf(const Ranks& ranks, const std::vector<std::uint64_t>& fingerprints)
 {
+  // Shape: ranks x ports. A rank without data on a port has the fingerprint 0 there.
   std::vector<std::vector<std::uint64_t>> all;
   for (const Bytes& bytes : ranks.Gather(toBytes(fingerprints)))
   {
@@ -130,6 +137,7 @@ std::string differenceOf(const Ranks& ranks, const std::vector<std::uint64_t>& f
 void InputRequests::Record(vtkAlgorithm* filter, vtkInformation* request,
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  // The request is the consumer's: what it says is recorded here and used until the next one.
   const DataPiece piece = requestedPiece(request, outputVector);
   if (piece.Count == 1 && this->IsIteratingOverBlocks(filter, inputVector))
   {
@@ -138,12 +146,15 @@ void InputRequests::Record(vtkAlgorithm* filter, vtkInformation* request,
   this->Piece = piece.Number;
   this->NumberOfPieces = piece.Count;
   this->Iterates = false;
+  // Weak pointers: the producer may delete or replace its output before the filter runs.
   this->Composites.assign(static_cast<std::size_t>(filter->GetNumberOfInputPorts()), {});
   for (std::size_t port = 0; port < this->Composites.size(); ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
       this->Composites[port].emplace_back(vtkCompositeDataSet::GetData(inputVector[port], i));
+      // A port that takes any data takes a composite data set as it is; other ports get block by
+      // block.
       const auto partitioned = this->Partitioned.find(static_cast<int>(port));
       const bool takesAny = partitioned != this->Partitioned.end() && !partitioned->second;
       this->Iterates = this->Iterates || (this->Composites[port].back() && !takesAny);
@@ -183,12 +194,15 @@ bool InputRequests::IsIteratingOverBlocks(
 bool InputRequests::IsPartitioned(int port, vtkInformation* input) const
 {
   const auto partitioned = this->Partitioned.find(port);
+  // Pieces are exchanged only if every rank runs the filter once, for its own piece of as many as
+  // there are ranks. A block is run by one rank alone.
   if (partitioned == this->Partitioned.end() || this->Iterates ||
     !isPieceOfRanks(this->Piece, this->NumberOfPieces))
   {
     return false;
   }
   vtkDataObject* data = vtkDataObject::GetData(input);
+  // A port of points takes pieces of images and point sets; other data are needed whole.
   return !partitioned->second || vtkImageData::SafeDownCast(data) ||
     vtkPointSet::SafeDownCast(data);
 }
@@ -233,6 +247,7 @@ void InputRequests::RequestOutputs(vtkInformation* request, vtkInformationVector
 void InputRequests::RequestFirstTimes(vtkAlgorithm* filter, vtkInformationVector** inputVector,
   vtkInformationVector* outputVector) const
 {
+  // A time that is requested downstream is passed on by the executive to all inputs alike.
   if (!isTimeRequested(outputVector) && !this->IsIteratingOverBlocks(filter, inputVector))
   {
     SeparateInputs::RequestFirstTimes(filter, inputVector);
@@ -258,6 +273,7 @@ std::unique_ptr<RankRun> InputRequests::BeginRun(
   {
     return nullptr;
   }
+  // Waits for all ranks: from here on, an error on one of them ends the run on all.
   return RankRun::Begin(filter->GetClassName(), this->Piece, this->NumberOfPieces);
 }
 
@@ -280,6 +296,8 @@ std::unique_ptr<RankRun> InputRequests::BeginWithoutPieces(
 void InputRequests::Require(
   vtkAlgorithm* filter, vtkInformationVector** inputVector, const RankRun* run)
 {
+  // The data that have to be whole, by ports. A partitioned port is left out only in a run of all
+  // ranks: alone, a rank needs everything.
   Inputs inputs(static_cast<std::size_t>(filter->GetNumberOfInputPorts()));
   vtkMTimeType newest = 0;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -300,6 +318,7 @@ void InputRequests::Require(
       {
         requireWholeExtent(input, "Input port " + std::to_string(port));
       }
+      // A composite data set is compared as a whole, once for all of its blocks.
       vtkDataObject* whole = this->CompositeAt(port, i);
       if (vtkDataObject* data = whole ? whole : vtkDataObject::GetData(input))
       {
@@ -308,6 +327,7 @@ void InputRequests::Require(
       }
     }
   }
+  // In a run every rank compares each time, because an exchange that some ranks skip would not end.
   if (run)
   {
     this->Difference = differenceOf(*run, fingerprintsOf(inputs));

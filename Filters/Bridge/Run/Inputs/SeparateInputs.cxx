@@ -38,6 +38,8 @@ struct SeparateInputs::Branch
   };
   SharedSource Source{ 0, {} };
 
+  // The deepest source counts, which is nearest to the input; with equal depth that of earlier
+  // times, so that the choice does not depend on the order of a set of pointers.
   void Take(const SharedSource& source)
   {
     const bool isEarlier =
@@ -62,6 +64,8 @@ vtkSmartPointer<vtkInformation> requestOf(vtkInformation* output)
   return request;
 }
 
+// Puts a request back that an update of another branch has overwritten. Append does not remove a
+// key that the request lacks, so that a time of another request must be removed here.
 void applyRequest(vtkInformation* request, vtkInformation* output)
 {
   output->Append(request);
@@ -71,6 +75,7 @@ void applyRequest(vtkInformation* request, vtkInformation* output)
   }
 }
 
+// The time that data say they are of; none where their source does not tell.
 std::optional<double> dataTime(vtkDataObject* data)
 {
   vtkInformation* information = data ? data->GetInformation() : nullptr;
@@ -83,6 +88,8 @@ std::optional<double> dataTime(vtkDataObject* data)
 // at that time gives those at the step before or after it.
 bool isTimeOf(double time, double asked, vtkInformation* output, const TimeRange& announced)
 {
+  // The nearest steps on both sides of what was asked for. Without steps, the source makes any time
+  // within its range.
   double before = announced.Steps > 0 ? announced.First : asked;
   double after = announced.Steps > 0 ? announced.Last : asked;
   for (int i = 0; i < announced.Steps; ++i)
@@ -96,6 +103,7 @@ bool isTimeOf(double time, double asked, vtkInformation* output, const TimeRange
 }
 
 // Whether a filter has one time of several that an input has.
+// Such a filter, for example one that forces a time, requests that time whatever is asked of it.
 bool choosesOne(vtkAlgorithm* filter, const TimeRange& announced)
 {
   bool areSeveral = false;
@@ -111,6 +119,7 @@ bool choosesOne(vtkAlgorithm* filter, const TimeRange& announced)
 }
 
 // The time that an output was last made for, which the executive keeps for itself.
+// The key is protected in the executive's class, so that only a subclass can name it.
 struct ExecutiveKeys : Pipeline
 {
   static vtkInformationDoubleKey* MadeFor() { return PREVIOUS_UPDATE_TIME_STEP(); }
@@ -122,6 +131,7 @@ bool hasWrongTime(vtkAlgorithm* filter, int port)
   vtkInformation* output = filter->GetOutputInformation(port);
   const auto announced = announcedTimes(output);
   const auto time = dataTime(filter->GetOutputDataObject(port));
+  // Sources make what is requested. Without announced times or the data's own, nothing can be said.
   if (filter->GetTotalNumberOfInputConnections() == 0 || !announced || !time)
   {
     return false;
@@ -135,6 +145,7 @@ bool hasWrongTime(vtkAlgorithm* filter, int port)
 }
 
 // The information of a port with other data of some connections.
+// The executive's own information must not change: it outlives this execution.
 vtkSmartPointer<vtkInformationVector> copyWith(vtkInformationVector* inputs, int port,
   const std::map<std::pair<int, int>, vtkDataObject*>& replaced)
 {
@@ -162,6 +173,7 @@ SeparateInputs::~SeparateInputs() = default;
 // The data of one chosen time have always the same time.
 SeparateInputs::State SeparateInputs::StateOf(const Output& output)
 {
+  // A filter counts as the same as long as it was not modified, and still gives that time.
   const auto announced = announcedTimes(output.first->GetOutputInformation(output.second));
   const bool hasOne = announced && choosesOne(output.first, *announced);
   const auto time = dataTime(output.first->GetOutputDataObject(output.second));
@@ -173,6 +185,8 @@ SeparateInputs::State SeparateInputs::StateOf(const Output& output)
 std::vector<SeparateInputs::Branch> SeparateInputs::FindBranches(
   vtkAlgorithm* filter, vtkInformationVector** inputVector)
 {
+  // First all connections with what they depend on, and for each algorithm the outputs that depend
+  // on it; then the sources that two or more different outputs share.
   std::vector<Branch> branches;
   std::map<vtkAlgorithm*, std::set<Output>> dependents;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -181,6 +195,8 @@ std::vector<SeparateInputs::Branch> SeparateInputs::FindBranches(
     {
       Branch branch{ nullptr, 0, port, i, inputVector[port]->GetInformationObject(i), {} };
       branch.Producer = filter->GetInputAlgorithm(port, i, branch.OutputPort);
+      // Data that were set without a producer, and other executives, have no requests to keep
+      // apart.
       if (branch.Producer && Pipeline::SafeDownCast(branch.Producer->GetExecutive()))
       {
         branch.Upstream = upstreamOf(branch.Producer);
@@ -197,6 +213,7 @@ std::vector<SeparateInputs::Branch> SeparateInputs::FindBranches(
     for (vtkAlgorithm* source : branch.Upstream)
     {
       const auto times = timesOf(source);
+      // Two connections to one output are one dependent: they get the same data anyway.
       if (times && dependents.at(source).size() > 1)
       {
         branch.Take({ upstreamOf(source).size(), *times });
@@ -217,10 +234,12 @@ void SeparateInputs::RequestFirstTimes(vtkAlgorithm* filter, vtkInformationVecto
   const auto hasTimesOfSource = [](const Branch& branch) {
     return announcedTimes(branch.Information) == branch.Source.Times;
   };
+  // Inputs that announce what their source does agree on a first time without help.
   if (std::all_of(branches.begin(), branches.end(), hasTimesOfSource))
   {
     return;
   }
+  // An input without times makes its data the same way whatever is requested.
   for (const Branch& branch : branches)
   {
     if (const auto times = announcedTimes(branch.Information))
@@ -239,6 +258,8 @@ void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVe
   {
     return;
   }
+  // Order matters: stale steps go first, then each input is made; if another filter has mixed up
+  // times before, what it left is invalidated and each input is made again, once.
   this->InvalidateCachedSteps(branches);
   this->UpdateEach(branches);
   if (this->ForgetWrongTimes(branches))
@@ -250,6 +271,7 @@ void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVe
       this->UntimedOutputs[output] = StateOf(output);
     }
   }
+  // Their data from now on count as made by this filter, until their time says otherwise.
   for (auto& [cachingFilter, time] : this->CachingFilters)
   {
     time = cachingFilter->GetOutputDataObject(0)->GetUpdateTime();
@@ -284,6 +306,8 @@ void SeparateInputs::InvalidateCachedSteps(const std::vector<Branch>& branches)
 void SeparateInputs::UpdateEach(const std::vector<Branch>& branches)
 {
   this->End();
+  // Requests are saved first, because an update of one branch passes its own upstream, also to the
+  // producers of other branches.
   std::vector<vtkSmartPointer<vtkInformation>> requests;
   for (const Branch& branch : branches)
   {
@@ -293,6 +317,7 @@ void SeparateInputs::UpdateEach(const std::vector<Branch>& branches)
   {
     const Branch& branch = branches[i];
     applyRequest(requests[i], branch.Information);
+    // Other consumers of the same algorithms find their requests as before.
     const RequestedTimes kept(branch.Producer);
     auto* pipeline = Pipeline::SafeDownCast(branch.Producer->GetExecutive());
     if (!pipeline->Update(branch.OutputPort) && this->Failed.empty())
@@ -300,6 +325,7 @@ void SeparateInputs::UpdateEach(const std::vector<Branch>& branches)
       this->Failed = "Input port " + std::to_string(branch.Port) +
         " could not be updated; mend the error of a filter before it";
     }
+    // The shallow copy keeps the arrays when the producer makes the data of the next branch.
     if (vtkDataObject* data = branch.Producer->GetOutputDataObject(branch.OutputPort))
     {
       auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
@@ -332,6 +358,7 @@ bool SeparateInputs::ForgetWrongTimes(const std::vector<Branch>& branches)
   {
     for (vtkAlgorithm* filter : upstreamOf(output.first))
     {
+      // Sources stay as they are: they make what is requested, and reading a file again takes long.
       if (filter->GetTotalNumberOfInputConnections() > 0)
       {
         filter->Modified();
@@ -369,6 +396,9 @@ vtkInformationVector** SeparateInputs::Inputs(
   {
     throw Failure(this->Failed);
   }
+  // The executive may have made an input once more after Update. If that was in the same data
+  // object, the copy has the contents of the right time. Another data object is none that Update
+  // has made.
   std::map<std::pair<int, int>, vtkDataObject*> replaced;
   for (const Made& made : this->Data)
   {
