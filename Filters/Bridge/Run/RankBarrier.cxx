@@ -32,6 +32,9 @@ using Seconds = std::chrono::duration<double>;
 
 // How ranks learn that all of them execute a filter. The first rank collects: a rank that fails
 // before its data are complete never comes, and the others must not wait for it in an exchange.
+// Ranks other than 0 send a message that they have come, and wait for the answer. Rank 0 polls the
+// messages of all, and answers each. MPI's own barrier has no limit of time, and its waiting ranks
+// could not tell why one is missing.
 class Barrier
 {
 public:
@@ -41,6 +44,7 @@ public:
   }
 
   // `withData` where the data are to be made; else before, as REQUEST_INFORMATION is.
+  // Requests that MPI has finished are removed first: their memory may be freed only then.
   void Wait(const std::string& filter, bool withData, Seconds longest)
   {
     this->Longest = longest;
@@ -57,6 +61,7 @@ public:
   }
 
 private:
+  // A rank sends the first two kinds, rank 0 answers with the others.
   enum Kind : std::uint64_t
   {
     Comes,
@@ -73,6 +78,8 @@ private:
     vtkMPICommunicator::Request Request;
   };
 
+  // Does not block: two ranks that send to each other before they receive would otherwise wait
+  // forever. The list keeps the content in its place until MPI has sent it.
   void SendTo(int rank, const Message& message)
   {
     this->Sends.push_back({ message, {} });
@@ -96,6 +103,7 @@ private:
   }
 
   // Numbers of meetings with data are even.
+  // Ranks run the same program, so that equal names have equal hashes on all of them.
   static std::uint64_t subjectOf(const std::string& filter, bool withData)
   {
     return std::hash<std::string>()(filter) << 1U | (withData ? 0U : 1U);
@@ -103,6 +111,9 @@ private:
   static bool isWithData(std::uint64_t subject) { return (subject & 1U) == 0; }
 
   // Returns whether ready() in time. After the time `patience` it says which rank() is missing.
+  // Polls, because a blocking receive would know no limit of time. 200 microseconds are short
+  // beside a run of a filter, and leave the processor to ranks that still compute on the same
+  // machine.
   template <class Ready, class Rank>
   static bool waitFor(Seconds longest, Seconds patience, const Ready& ready, const Rank& rank)
   {
@@ -143,6 +154,8 @@ private:
       "ranks must run the same filters in the same order");
   }
 
+  // Messages of one rank arrive in the order in which it sent them: a call that was given up in the
+  // meantime is removed again.
   void ReceiveAll(int rank)
   {
     for (Message message; this->Receive(rank, message);)
@@ -164,6 +177,8 @@ private:
   bool WaitsElsewhere(int rank, std::uint64_t subject)
   {
     Calls& waiting = this->Waiting[rank];
+    // Where this rank is at the data, calls from earlier requests are answered: their ranks need
+    // not meet.
     for (auto call = waiting.begin(); isWithData(subject) && call != waiting.end();)
     {
       if (isWithData(call->second))
@@ -179,6 +194,8 @@ private:
 
   void Collect(std::uint64_t subject)
   {
+    // Each poll reads the messages of all ranks, and stops when one is known to wait for something
+    // else.
     const int ranks = this->Controller->GetNumberOfProcesses();
     int missing = 0;
     bool isElsewhere = false;
@@ -197,10 +214,14 @@ private:
       return missing == 0;
     };
     const bool haveAll =
+      // After five seconds the user learns which rank is waited for, as it may be a mistake in a
+      // script.
       waitFor(
         this->Longest, std::chrono::seconds(5), [&]() { return allHaveCome() || isElsewhere; },
         [&]() { return missing; }) &&
       !isElsewhere;
+    // All ranks that have come get an answer, also if one is missing: they must not wait any
+    // longer.
     for (int rank = 1; rank < ranks; ++rank)
     {
       Calls& waiting = this->Waiting[rank];
@@ -223,6 +244,7 @@ private:
     }
   }
 
+  // A rank's call for this subject, where it waits for it; else the end.
   static Calls::const_iterator callFor(std::uint64_t subject, const Calls& waiting)
   {
     return std::find_if(
@@ -231,6 +253,7 @@ private:
 
   void Come(std::uint64_t subject)
   {
+    // The number tells this call's answer from a late one to a call that was given up.
     const unsigned long call = ++this->OwnCalls;
     this->SendTo(0, { subject, call, Comes, 0 });
     Message answer{};
@@ -239,6 +262,7 @@ private:
           2 * this->Longest, std::chrono::seconds(10),
           [&]() { return this->Receive(0, answer) && answer[1] == call; }, []() { return 0; }))
     {
+      // Without it, rank 0 would find this rank waiting when it arrives, and go on with it.
       this->SendTo(0, { subject, call, Leaves, 0 });
       this->ThrowMissing(0);
     }
@@ -259,6 +283,7 @@ private:
 
 void waitForRanks(const std::string& filter, bool withData, Seconds longest)
 {
+  // One for the process: messages that arrive for a later call must be kept between calls.
   static Barrier meeting(mpiController());
   meeting.Wait(filter, withData, longest);
 }

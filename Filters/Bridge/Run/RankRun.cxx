@@ -92,6 +92,7 @@ MpiRun::Arrivals MpiRun::Announce(
   State state, const std::string& message, const std::vector<const Bytes*>& parts) const
 {
   const auto ranks = static_cast<std::size_t>(this->Count());
+  // Message to all: this rank's state, then the bytes that it will send to each rank.
   std::vector<long long> own(ranks + 1);
   own[0] = static_cast<long long>(state);
   for (std::size_t rank = 0; rank < parts.size(); ++rank)
@@ -99,7 +100,9 @@ MpiRun::Arrivals MpiRun::Announce(
     own[rank + 1] = static_cast<long long>(parts[rank]->size());
   }
   std::vector<long long> all(ranks * own.size());
+  // Shape of `all`: ranks x (ranks + 1), by senders. All ranks compute the same decision from it.
   this->Controller->AllGather(own.data(), all.data(), static_cast<vtkIdType>(own.size()));
+  // By the order of State, a failure on any rank outweighs a cancellation, which would hide it.
   State worst = State::Runs;
   Arrivals arriving{ std::vector<long long>(ranks) };
   std::vector<long long> sums(ranks);
@@ -113,16 +116,19 @@ MpiRun::Arrivals MpiRun::Announce(
       sums[to] += there[1 + to];
     }
   }
+  // The largest sum of any rank, so that all choose the same way of transfer.
   arriving.Most = *std::max_element(sums.begin(), sums.end());
   if (worst == State::Runs)
   {
     return arriving;
   }
+  // No further exchange takes place: what the ranks do next, such as empty outputs, is local.
   this->HasEnded = true;
   if (worst == State::Failed)
   {
     this->CollectReports(state == State::Failed ? message : "");
   }
+  // The rank that failed, or was cancelled, already has an exception of its own.
   if (state == State::Runs)
   {
     if (worst == State::Cancelled)
@@ -156,12 +162,14 @@ void MpiRun::CollectReports(const std::string& message) const
 // with int; it also makes a copy of all.
 std::vector<Bytes> MpiRun::Gather(const Bytes& own) const
 {
+  // Gather is an exchange in which each rank gives the same bytes to all.
   const std::vector<const Bytes*> parts(static_cast<std::size_t>(this->Count()), &own);
   const Arrivals arrivals = this->Announce(State::Runs, "", parts);
   if (arrivals.Most <= much)
   {
     return this->GatherAtOnce(own, arrivals.Here);
   }
+  // Large parts are received where they stay, without a copy of all in one block.
   std::vector<Bytes> received = this->Transfer(parts, arrivals);
   received[static_cast<std::size_t>(this->Own())] = own;
   return received;
@@ -169,6 +177,7 @@ std::vector<Bytes> MpiRun::Gather(const Bytes& own) const
 
 std::vector<Bytes> MpiRun::GatherAtOnce(const Bytes& own, const std::vector<long long>& sizes) const
 {
+  // Rank r's bytes are [offsets[r], offsets[r + 1]) of the block that MPI fills.
   const std::vector<vtkIdType> lengths(sizes.begin(), sizes.end());
   std::vector<vtkIdType> offsets(sizes.size() + 1);
   std::partial_sum(lengths.begin(), lengths.end(), offsets.begin() + 1);
@@ -189,6 +198,7 @@ std::vector<Bytes> MpiRun::GatherAtOnce(const Bytes& own, const std::vector<long
 
 std::vector<Bytes> MpiRun::Exchange(std::vector<Bytes> parts) const
 {
+  // Parts are not copied; each must stay until Transfer has sent it.
   std::vector<const Bytes*> given;
   for (const Bytes& part : parts)
   {
@@ -196,6 +206,7 @@ std::vector<Bytes> MpiRun::Exchange(std::vector<Bytes> parts) const
   }
   std::vector<Bytes> received = this->Transfer(given, this->Announce(State::Runs, "", given));
   const auto own = static_cast<std::size_t>(this->Own());
+  // What a rank sends to itself takes no message.
   received[own] = std::move(parts[own]);
   return received;
 }
@@ -210,6 +221,7 @@ std::vector<Bytes> MpiRun::AllocateFor(const Arrivals& arrivals) const
   {
     for (std::size_t rank = 0; rank < received.size(); ++rank)
     {
+      // Without a buffer for the own part, which the caller puts there.
       const bool isOwn = rank == static_cast<std::size_t>(this->Own());
       received[rank].resize(isOwn ? 0 : static_cast<std::size_t>(arrivals.Here[rank]));
     }
@@ -219,6 +231,8 @@ std::vector<Bytes> MpiRun::AllocateFor(const Arrivals& arrivals) const
     fits = false;
     received.clear();
   }
+  // One more announcement costs little beside so many bytes. With less, memory is taken to be
+  // there.
   if (arrivals.Most > much)
   {
     this->Announce(
@@ -239,6 +253,8 @@ std::vector<Bytes> MpiRun::Transfer(
 {
   std::vector<Bytes> received = this->AllocateFor(arrivals);
   const auto own = static_cast<std::size_t>(this->Own());
+  // Sender and receiver cut a part at the same bytes, and MPI keeps the order of messages between
+  // two ranks with one tag, so that pieces need no numbers.
   constexpr std::size_t most = std::size_t{ 1 } << 30; // bytes of a message
   const auto forMessages = [=](std::size_t rank, std::size_t bytes, const auto& start) {
     for (std::size_t first = 0; first < bytes && rank != own; first += most)
@@ -246,6 +262,7 @@ std::vector<Bytes> MpiRun::Transfer(
       start(first, static_cast<int>(std::min(most, bytes - first)), static_cast<int>(rank));
     }
   };
+  // A list: MPI needs the requests where they are until they are finished.
   std::list<vtkMPICommunicator::Request> requests;
   for (std::size_t rank = 0; rank < parts.size(); ++rank)
   {
@@ -263,6 +280,7 @@ std::vector<Bytes> MpiRun::Transfer(
         parts[rank]->data() + first, length, remote, exchangeTag, requests.back());
     });
   }
+  // Buffers may be used or freed only when all messages have been sent and received.
   for (vtkMPICommunicator::Request& request : requests)
   {
     request.Wait();
@@ -270,6 +288,8 @@ std::vector<Bytes> MpiRun::Transfer(
   return received;
 }
 
+// Every run begins with a meeting of all ranks, because its first announcement would otherwise wait
+// without limit for a rank that never comes.
 std::unique_ptr<RankRun> meet(
   const std::string& filter, bool withData, std::chrono::duration<double> longest)
 {
@@ -290,6 +310,7 @@ std::unique_ptr<RankRun> meet(const std::string&, bool, std::chrono::duration<do
 
 std::unique_ptr<RankRun> RankRun::Begin(const std::string& filter, int piece, int pieces)
 {
+  // A request of another number of pieces comes from one rank alone, as from a writer that gathers.
   return isPieceOfRanks(piece, pieces) ? meet(filter, true, Timeout()) : nullptr;
 }
 
@@ -306,6 +327,8 @@ std::chrono::duration<double> RankRun::Timeout()
 std::unique_ptr<RankRun> RankRun::TryBegin(
   const std::string& filter, std::chrono::duration<double> longest)
 {
+  // Before data are made, a missing rank is no error: the filter goes on alone, and RequestData
+  // reports what is wrong.
   try
   {
     return haveSeveralRanks() ? meet(filter, false, longest) : nullptr;

@@ -20,11 +20,14 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Points in a range of a thread.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 // The bytes that the core takes while it runs.
 double coreMemory(bool byTransport, int dimension, double cells, double points)
 {
+  // Measured peaks in bytes: moments of the density's rows for integrals over polygons; the power
+  // diagram with the factors of its linear systems; the neighbours within reach of a Gaussian.
   constexpr double rowMoments = 18.0; // a cell of the density
   constexpr double diagram = 2048.0;  // a point
   const double neighbours = dimension == 2 ? 2500.0 : 4600.0;
@@ -45,6 +48,8 @@ public:
   // Returns how many points were moved to the domain.
   std::int64_t Read(vtkPointSet* input, const std::string& purpose, Progress& progress)
   {
+    // Two sets of coordinates: 3 doubles for each point in physical space, ghosts among them, and D
+    // for each counted one in index space, which the core moves.
     const vtkIdType count = input->GetNumberOfPoints();
     const std::int64_t coordinates = this->Counted.Count() * D;
     this->Points = newArray<vtkDoubleArray>("Points", 3, count);
@@ -63,6 +68,8 @@ public:
     const PointSpan<D> relaxed = this->Relaxed();
     progress.ForEach(relaxed.size(), grain, [&](std::int64_t i) {
       double* x = points + 3 * this->Counted.Point(i);
+      // The same conversion as in Read gives the same bits, so that a point that was not moved is
+      // found by equality. To index space and back would change its last bits.
       double before[D];
       this->Grid.template ToIndex<D>(x, before);
       this->Grid.template ClampToDomain<D>(before);
@@ -71,6 +78,7 @@ public:
         this->Grid.template ToPhysical<D>(relaxed[i], x);
       }
     });
+    // The output shares its cells and arrays with the input; only its points are new.
     vtkNew<vtkPoints> moved;
     moved->SetData(this->Points);
     output->SetPoints(moved);
@@ -88,6 +96,7 @@ private:
 template <int D>
 Point<D> cellLengths(const ImageGrid& grid)
 {
+  // The relaxation measures distances in physical space, but works on index space.
   Point<D> lengths = grid.Lengths<D>();
   const GridSize<D> size = grid.Size<D>();
   for (std::size_t a = 0; a < D; ++a)
@@ -109,6 +118,7 @@ RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const InputDen
   const Point<D> spacing = cellLengths<D>(density.Grid());
   try
   {
+    // Power diagrams exist here only in the plane; Run has refused them in 3D.
     if constexpr (D == 2)
     {
       if (settings.ByTransport)
@@ -119,6 +129,7 @@ RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const InputDen
     return relaxByRepulsion<D>(
       density.Source<D>(), flow->Flow<D>(), spacing, points, settings.Options, context);
   }
+  // The core knows values and indices; the input knows the names that a user recognizes.
   catch (const InvalidDensity& invalid)
   {
     density.ThrowInvalid(invalid.Summary());
@@ -144,6 +155,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
       { "density", Cost::Reading * cells }, { "points", Cost::Seed * all },
       { "relaxation", Cost::Relaxation * count * (settings.Options.MaximumIterations + 1.0) },
       { "output", Cost::Seed * count } });
+  // All memory is asked for before tables are built, which may take long.
   const std::string purpose = "the relaxation of " + std::to_string(counted.Count()) +
     " points in " + std::to_string(density.Grid().NumberOfCells()) + " cells of the density";
   const double bytes = coreMemory(settings.ByTransport, D, cells, count);
@@ -154,6 +166,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
   {
     flow = &cache.Update(density, stages["tables"]);
   }
+  // Tables of another density would only take memory.
   else if (cache.IsOutdated(density))
   {
     cache.Release();
@@ -167,6 +180,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
   PlacedPoints<D> points(density.Grid(), counted);
   BlueNoiseRelaxation::Report report;
   report.PointsMoved = points.Read(input, purpose, stages["points"]);
+  // Ghosts alone: nothing moves, and there is no energy.
   if (counted.Count() > 0)
   {
     withMemory({ purpose, bytes }, [&]() {

@@ -30,6 +30,7 @@ namespace
 // The input's points in double precision.
 vtkSmartPointer<vtkPoints> doublePoints(vtkPoints* points)
 {
+  // The output shares the input's points: neither changes them.
   if (points->GetDataType() == VTK_DOUBLE)
   {
     return points;
@@ -45,6 +46,7 @@ template <class ArrayT>
 vtkSmartPointer<ArrayT> moveToArray(const char* name, std::vector<std::int64_t>& values)
 {
   using Value = typename ArrayT::ValueType;
+  // vtkIdType may have 32 bits; where it has 64, the values are the same. One value a tuple.
   auto array = newArray<ArrayT>(name, 1, static_cast<vtkIdType>(values.size()));
   std::transform(values.begin(), values.end(), array->GetPointer(0),
     [](std::int64_t value) { return static_cast<Value>(value); });
@@ -55,6 +57,8 @@ vtkSmartPointer<ArrayT> moveToArray(const char* name, std::vector<std::int64_t>&
 // The vector is empty afterwards.
 void movePoints(std::vector<Point<3>>& from, vtkPolyData* to)
 {
+  // Three doubles a point. The peak is both copies; the vector ends here, before arrays of cells
+  // are made.
   const auto count = static_cast<vtkIdType>(from.size());
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
   for (vtkIdType i = 0; i < count; ++i)
@@ -76,6 +80,7 @@ std::array<vtkDataObject*, 4> CellOutputs::All() const
 
 void writeSites(vtkPointSet* sites, vtkPointSet* output)
 {
+  // Also the cells, so that sites that are vertices of vtkPolyData are drawn as before.
   output->CopyStructure(sites);
   output->SetPoints(doublePoints(sites->GetPoints()));
   output->GetPointData()->PassData(sites->GetPointData());
@@ -85,15 +90,19 @@ void writeSites(vtkPointSet* sites, vtkPointSet* output)
 void addStatistics(
   const CellOutputs& outputs, const std::function<double(const SiteCellStatistics&)>& measure)
 {
+  // One tuple for each site: mass in units of the density's mass or of area, centroid in physical
+  // space, and the site's part of the cost, mean |x - site|^2 or of another norm.
   const vtkIdType count = outputs.Sites->GetNumberOfPoints();
   auto masses = newArray<vtkDoubleArray>("CellMass", 1, count);
   auto centroids = newArray<vtkDoubleArray>("CellCentroid", 3, count);
   auto costs = newArray<vtkDoubleArray>("CellCost", 1, count);
   const double cost = measure(SiteCellStatistics{
     masses->GetPointer(0), { centroids->GetPointer(0), count }, costs->GetPointer(0) });
+  // Added after `measure` has returned: an error leaves no array without values.
   outputs.Sites->GetPointData()->AddArray(masses);
   outputs.Sites->GetPointData()->AddArray(centroids);
   outputs.Sites->GetPointData()->AddArray(costs);
+  // Every output has the cost: users look at one of them alone.
   for (vtkDataObject* output : outputs.All())
   {
     addFieldValue(output, "TransportCost", cost);
@@ -105,6 +114,8 @@ void writeOutlines(SiteCellOutlines<Dimension> outlines, vtkPolyData* output)
 {
   movePoints(outlines.Points, output);
   const auto faces = static_cast<vtkIdType>(outlines.SiteIds.size());
+  // All faces have equally many corners, 1, 2 or 4, so that face i begins at i times that number.
+  // The last offset is the length of the connectivity, as vtkCellArray requires.
   const auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, faces + 1);
   for (vtkIdType i = 0; i <= faces; ++i)
   {
@@ -112,6 +123,7 @@ void writeOutlines(SiteCellOutlines<Dimension> outlines, vtkPolyData* output)
   }
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, moveToArray<vtkIdTypeArray>("Connectivity", outlines.CornerIds));
+  // The border of a cell is points in 1D, lines in 2D and quads in 3D.
   if constexpr (Dimension == 1)
   {
     output->SetVerts(cells);
@@ -135,13 +147,17 @@ void writePolygons(SiteCellPolygons polygons, const CellOutputs& outputs, Progre
 {
   movePoints(polygons.Points, outputs.Polygons);
   vtkNew<vtkCellArray> cells;
+  // First is one longer than the number of polygons, as vtkCellArray's offsets are.
   cells->SetData(moveToArray<vtkIdTypeArray>("Offsets", polygons.First),
     moveToArray<vtkIdTypeArray>("Connectivity", polygons.CornerIds));
   outputs.Polygons->SetPolys(cells);
   auto* data = outputs.Polygons->GetCellData();
   const auto ids = moveToArray<SiteIdArray>("SiteId", polygons.SiteIds);
+  // A site may have several polygons, so that its global id would not be unique among cells. Its
+  // ghost flags mean points, not cells.
   data->CopyGlobalIdsOff();
   data->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
+  // Each polygon gets all arrays of its site.
   copyTuples(
     { outputs.Sites->GetPointData(), outputs.Sites->GetNumberOfPoints(), "point",
       "input point set" },

@@ -64,12 +64,15 @@ DataIdentity identityOfDivision(vtkPointSet* sites, const ImageGrid& grid, const
 // The sites' coordinates. Throws Failure for any that is not finite.
 DoubleTuples placesOf(vtkPointSet* sites, Progress& progress)
 {
+  // Only checks that coordinates are finite. DoubleTuples then views arrays of doubles and copies
+  // others.
   visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
   return { sites->GetPoints()->GetData(), progress };
 }
 
 // The tables of the pixels are the peak.
 template <int D>
+// Labels are 8 bytes a pixel, and asked for separately.
 double bytesOfLabelling(const ImageGrid& grid)
 {
   return RectifiedFlow<D>::MemoryFor(grid.Size<D>());
@@ -77,6 +80,7 @@ double bytesOfLabelling(const ImageGrid& grid)
 
 // With the places of the pixels in the uniform measure.
 template <int D>
+// In 1D, cells are intervals in the order of the sites, without a flow.
 double bytesOfLabellingByMass(const ImageGrid& grid)
 {
   return D == 1 ? 0.0
@@ -84,6 +88,8 @@ double bytesOfLabellingByMass(const ImageGrid& grid)
 }
 
 template <int D>
+// The sites in the pixels of the grid. Each site needs a pixel at least, as masses are whole
+// pixels.
 SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& progress)
 {
   const std::int64_t count = sites->GetNumberOfPoints();
@@ -94,6 +100,7 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
       " pixels; raise Resolution until there is a pixel for each");
   }
   const DoubleTuples points = placesOf(sites, progress);
+  // Index coordinates (D), physical ones (3), and the lists of pixels and of sites in them (4).
   constexpr double eachSite = (D + 3 + 4) * sizeof(double);
   return withMemory(
     { "the " + std::to_string(count) + " sites", static_cast<double>(count) * eachSite }, [&]() {
@@ -106,6 +113,8 @@ template <class Make>
 std::shared_ptr<const SiteDivision> updateDivision(
   const DataIdentity& identity, StoreSlot& kept, Progress& progress, const Make& make)
 {
+  // Labels are not shared with other filters: they belong to this filter's sites. Sites are whole
+  // on each rank, or rank 0 runs alone, so that the slot needs no agreement among ranks.
   return kept.Get<const SiteDivision>(identity, SoloRanks::Get(), progress, Sharing::None,
     [&]() { return std::make_shared<const SiteDivision>(make()); });
 }
@@ -116,8 +125,10 @@ SiteDivision updateLabels(const DataIdentity& identity, const ImageGrid& grid, d
   StoreSlot& kept, Progress& progress, const Label& label)
 {
   Stages stages(progress, { { "comparison", 1 }, { "labels", 92 } });
+  // One label a pixel, axis 0 fastest: the number of a site, or -1 for a pixel without mass.
   const auto make = [&]() -> SiteDivision {
     auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+    // The report is kept with the labels, as warnings have to come also where labels are reused.
     const FlowReport flow =
       withMemory({ "labels of " + describeSize<D>(grid.Size<D>()) + " pixels", bytes },
         [&]() { return label(labels->GetPointer(0), stages["labels"]); });
@@ -132,9 +143,12 @@ template <int D, class Measure>
 void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Progress& progress,
   const CellOutputs& outputs, const Measure& measure)
 {
+  // The image shares the kept labels. Filters must not change their inputs, so that they stay
+  // valid.
   outputs.Labels->GetCellData()->SetScalars(labels);
   Stages stages(progress,
     { { "statistics", 6 }, { "outlines", 2 }, { "polygons", 1 }, { "written polygons", 1 } });
+  // Sums for each site: D moments, weight and cost, once for a chunk of pixels and once for all.
   const double bytes = static_cast<double>(sites) * 2.0 * (D + 2) * sizeof(double);
   const auto withSums = [&](const SiteCellStatistics& statistics) {
     return withMemory({ "the sums of the " + std::to_string(sites) + " cells", bytes },
@@ -143,6 +157,7 @@ void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Pro
   addStatistics(outputs, withSums);
   writeOutlines<D>(
     outlineSiteCells<D>(grid, labels->GetPointer(0), stages["outlines"]), outputs.Outlines);
+  // The cells of pixels in a line or in space are no polygons.
   if constexpr (D == 2)
   {
     SiteCellPolygons polygons =
@@ -156,6 +171,8 @@ template <int D>
 EqualMassCells::Report divide(const EqualMassCells& cells, vtkPointSet* sites,
   const ImageGrid& grid, StoreSlot& kept, Progress& progress, const CellOutputs& outputs)
 {
+  // The flow of all pixels takes nearly all of the time. Its tables are those of the sites as a
+  // density, and are made inside Label.
   Stages stages(progress, { { "sites", 1 }, { "labels", 94 }, { "output", 5 } });
   const SiteCells<D> placed = placeSites<D>(sites, grid, stages["sites"]);
   const SiteDivision division = updateLabels<D>(identityOfDivision(sites, grid, &cells.Flow), grid,
@@ -178,10 +195,13 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
   const auto count = static_cast<vtkIdType>(sites->GetNumberOfPoints());
   Stages stages(progress,
     { { "tables", 4 }, { "reading", 1 }, { "masses", 1 }, { "labels", 89 }, { "output", 5 } });
+  // Unlike above, the flow is that of the density, shared with other filters: pixels and sites go
+  // backward to the uniform measure, and the division takes place there.
   const SharedFlow& flow = cache.Update(density, stages["tables"]);
   Progress& reading = stages["reading"];
   density.Prepare(FlowTables::Whole, reading);
   const DoubleTuples points = placesOf(sites, reading);
+  // Masses of pixels are integers of 8 bytes, so that their sums are exact in any order.
   const double bytes = numberOfValues(grid) * sizeof(std::int64_t);
   const auto placed =
     withMemory({ "the masses of " + describeValues(grid) + " pixels", bytes }, [&]() {
@@ -209,6 +229,7 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
     [&](const SiteCellStatistics& statistics, Progress& work) {
       const double cost = measureSiteCells<D>(
         placed, labels->GetPointer(0), flow.TotalMass(), cells.Norm, statistics, work);
+      // Cells that got no pixel with mass: there are nearly as many sites as such pixels.
       report.WithoutMass = std::count(statistics.Mass, statistics.Mass + count, 0.0);
       return cost;
     });
@@ -219,6 +240,7 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
 PowerSiteCells powerCells(ConstPointSpan<3> points, const ImageGrid& grid, InputDensity& density,
   double& mass, Progress& progress)
 {
+  // The solver takes the values of all cells, and the mass in physical units for its figures.
   Stages stages(progress, { { "density", 2 }, { "cells", 98 } });
   density.Prepare(FlowTables::Whole, stages["density"]);
   mass = massOf(density, stages["density"]);
@@ -242,6 +264,8 @@ SiteDivision divideByPower(
   const DoubleTuples points = placesOf(sites, stages["points"]);
   SiteDivision division;
   // The factors of the linear systems are the peak.
+  // Measured peaks: Newton's method solves a sparse linear system of one unknown a site, and
+  // integrates the density over polygons by moments of its rows.
   constexpr double eachSite = 1500.0;
   constexpr double rowMoments = 18.0; // bytes a cell of the density
   const double moments =
@@ -255,11 +279,13 @@ SiteDivision divideByPower(
           ? powerCells(places, grid, *density, mass, stages["cells"])
           : PowerSiteCells(places, grid, stages["cells"]));
     });
+  // The polygons come first; a pixel belongs to the one that contains its centre.
   division.Labels =
     newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
   std::int64_t* labels = division.Labels->GetPointer(0);
   withMemory({ "the polygons in the rows of pixels", static_cast<double>(count) * sizeof(double) },
     [&]() { division.Power->Label(labels, stages["labels"]); });
+  // As with Shape Flow, pixels without mass belong to no site. Polygons cover them nevertheless.
   if (density)
   {
     withMemory({ "the masses of " + describeValues(grid) + " pixels",
@@ -278,12 +304,17 @@ EqualMassCells::Report writePowerCells(vtkPointSet* sites, const ImageGrid& grid
   InputDensity* density, StoreSlot& kept, Progress& progress, const CellOutputs& outputs)
 {
   Stages stages(progress, { { "comparison", 2 }, { "cells", 93 }, { "output", 5 } });
+  // Polygons are exact, so that mass, centroid and cost are integrals over them, not sums of
+  // pixels. The filter takes no other norm than the squared distance, for which a power diagram is
+  // optimal.
   const auto division = updateDivision(identityOfDivision(sites, grid, nullptr, density), kept,
     stages["comparison"], [&]() { return divideByPower(sites, grid, density, stages["cells"]); });
   const PowerSiteCells& power = *division->Power;
   outputs.Labels->GetCellData()->SetScalars(division->Labels);
   addStatistics(
     outputs, [&power](const SiteCellStatistics& statistics) { return power.Measure(statistics); });
+  // A cell has less than 6 corners on average (Euler's formula for planar graphs); each takes up to
+  // 60 bytes as a point, a line and an entry of a polygon.
   const double bytes = 60.0 * 6.0 * static_cast<double>(power.NumberOfSites());
   withMemory(
     { "the outlines", bytes }, [&]() { writeOutlines<2>(power.Outlines(), outputs.Outlines); });
@@ -297,6 +328,7 @@ EqualMassCells::Report writePowerCells(vtkPointSet* sites, const ImageGrid& grid
 void requireDivisible(const ImageGrid& grid, bool isPower)
 {
   requireCells(grid);
+  // The solver computes diagrams of polygons.
   if (isPower && grid.Dimension() != 2)
   {
     throw Failure("Shape Power needs a domain of two dimensions; this one has " +
@@ -324,12 +356,14 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
   const LabelGrid pixels{ this->Resolution };
   const ImageGrid grid = domain ? pixels.On(domain) : pixels.Around(sites);
   requireDivisible(grid, this->IsPower);
+  // Kept labels need no memory for another labelling: only the exponents of the cost changed.
   if (!kept.Holds(identityOfDivision(sites, grid, this->IsPower ? nullptr : &this->Flow)))
   {
     const auto bytes = dispatchDimension(
       grid.Dimension(), bytesOfLabelling<1>, bytesOfLabelling<2>, bytesOfLabelling<3>);
     requireMemoryForLabels(grid, sizeof(std::int64_t), this->IsPower ? 0.0 : bytes(grid));
   }
+  // Outputs are written after all checks of properties and memory.
   applyGrid(grid, outputs.Labels);
   writeSites(sites, outputs.Sites);
   if (this->IsPower)
@@ -343,6 +377,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& density,
   FlowCache& cache, StoreSlot& kept, Progress& progress, const CellOutputs& outputs) const
 {
+  // The pixels fill the density's box, and need not be its cells.
   const ImageGrid grid = LabelGrid{ this->Resolution }.On(density.Grid());
   requireDivisible(grid, this->IsPower);
   const auto bytes = dispatchDimension(grid.Dimension(), bytesOfLabellingByMass<1>,
@@ -353,6 +388,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& den
   writeSites(sites, outputs.Sites);
   if (this->IsPower)
   {
+    // Power cells need no flow: the tables of an earlier Shape Flow only take memory.
     cache.Release();
     return writePowerCells(sites, grid, &density, kept, progress, outputs);
   }

@@ -35,6 +35,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Checks coordinates and masses of all points of this rank, hidden ones among them, which have no
+// mass. A rank without points has no masses, and takes part in what follows.
 PointMasses readPoints(vtkPointSet* points, vtkDataArray* masses, Progress& progress)
 {
   if (points->GetNumberOfPoints() == 0)
@@ -46,6 +48,7 @@ PointMasses readPoints(vtkPointSet* points, vtkDataArray* masses, Progress& prog
   return { points, masses, stages["masses"] };
 }
 
+// A grid without axes has no cells to splat onto.
 void requireAxis(const ImageGrid& cells, bool hasReference)
 {
   if (cells.Dimension() == 0)
@@ -58,6 +61,8 @@ void requireAxis(const ImageGrid& cells, bool hasReference)
   }
 }
 
+// Asked for before VTK allocates the image: Dimensions may be far too large. `values` is the number
+// that one rank holds.
 void requireMemoryFor(double values, const ImageGrid& cells)
 {
   const std::array<int, 3> along = cells.NumberOfValues();
@@ -80,6 +85,9 @@ struct SplatResult
   double TotalMass;     // the mass that the whole image holds
 };
 
+// The sum of the counted masses, in the order of their keys and in chunks, with the bits of one
+// rank. Without masses on any rank it is the number of points, which a double holds exactly up to
+// 2^53. A rank without points has no array, but its 0 points have the mass 1 each.
 double inOrder(
   const DistributedPoints& points, const double* masses, const Ranks& ranks, Progress& progress)
 {
@@ -88,10 +96,12 @@ double inOrder(
     return static_cast<double>(points.All());
   }
   const std::int64_t count = points.Counted().Count();
+  // Each rank gets whole chunks of the order, so that sums of chunks do not depend on the ranks.
   const RankOrder order(count, points.Keys(), PointMasses::Chunk, ranks, progress);
   const std::vector<double> share =
     order.Redistribute([=](std::int64_t i) { return masses ? masses[i] : 1.0; });
   const double total = sumChunks(share.data(), order.Count(), PointMasses::Chunk, ranks);
+  // Each mass is finite, but their sum may overflow.
   if (!std::isfinite(total))
   {
     std::ostringstream message;
@@ -101,15 +111,20 @@ double inOrder(
   return total;
 }
 
+// On one rank: density in each cell, and the mass that the image holds.
 SplatResult splatHere(const SplatInput& input, Progress& progress, vtkDoubleArray* cells)
 {
   Stages stages(progress, { { "splat", 95 }, { "sum", 5 } });
   const std::int64_t outside = splatDistributed(input.Points.Set()->GetPoints()->GetData(),
     input.Masses.Values(), 1.0, nullptr, input.Target, {}, stages["splat"], cells);
+  // The weights of each point sum to 1 inside: the image holds the masses' sum, which is known
+  // exactly.
   if (input.Target.Options.Boundary == SplatBoundary::Renormalize)
   {
     return { outside, input.Masses.Total() };
   }
+  // With Drop, mass that falls outside is lost, so that the cells are summed; times a cell's
+  // measure where they have densities.
   const double sum = sumOfCells(cells->GetPointer(0), cells->GetNumberOfTuples(), stages["sum"]);
   return { outside, sum * input.Target.CellMeasure() };
 }
@@ -123,10 +138,13 @@ SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const T
   {
     return splatHere(input, progress, cells);
   }
+  // Only counted points are sent, so that arrays are reduced to these. Points that a lower rank
+  // has, too, would otherwise have their mass twice.
   vtkDoubleArray* given = input.Masses.Array();
   const vtkSmartPointer<vtkDataArray> counted = given ? input.Points.TuplesOf(given) : nullptr;
   const double* masses = given ? vtkDoubleArray::SafeDownCast(counted)->GetPointer(0) : nullptr;
   const auto places = input.Points.TuplesOf(input.Points.Set()->GetPoints()->GetData());
+  // Each rank gets the points that reach its box, sorted by keys; terms are added in that order.
   const auto splat = [&](const TupleBox& box, vtkDoubleArray* to) {
     return splatDistributed(
       places, masses, 1.0, input.Points.Keys(), input.Target, box, progress, to);
@@ -137,6 +155,7 @@ SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const T
     return { splat(wanted, cells), total };
   }
   // What is dropped is known from the cells only: all of them, wanted or not.
+  // Every rank splats a share of whole layers, sums it, and then sends the cells that others want.
   std::vector<TupleBox> held;
   for (int rank = 0; rank < ranks.Count(); ++rank)
   {
@@ -155,6 +174,7 @@ SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const T
 
 ImageGrid MassSplatter::CellsIn(const double (&bounds)[6]) const
 {
+  // An axis along which all points have one coordinate has no length, and one cell.
   const ImageGrid box = gridOfBox(bounds);
   int dimensions[3];
   for (std::size_t a = 0; a < 3; ++a)
@@ -167,6 +187,7 @@ ImageGrid MassSplatter::CellsIn(const double (&bounds)[6]) const
 // The grid of the image: its points are the centres of the cells if the density is on points.
 ImageGrid MassSplatter::GridOf(const ImageGrid& cells, bool hasReference) const
 {
+  // A reference already has the association: OnPoints tells which of its values are written.
   return this->OnPoints && !hasReference ? cells.AtCellCentres() : cells;
 }
 
@@ -178,6 +199,7 @@ ImageGrid MassSplatter::GridAround(const double (&bounds)[6]) const
 // The grid of the image that all ranks have together.
 ImageGrid MassSplatter::GridOfReference(vtkImageData* reference, const Ranks& ranks) const
 {
+  // On several ranks the frame of the whole: its arrays do not matter here.
   vtkSmartPointer<vtkImageData> whole = reference;
   if (ranks.AreSeveral())
   {
@@ -194,6 +216,8 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   const DistributedPoints counted(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
   Stages stages(progress,
     { { "reading", 20 }, { "bounds", target.HasReference ? 0.0 : 5.0 }, { "splat", 75 } });
+  // Reading precedes everything that depends on the points: a value that is not finite has no
+  // place.
   const PointMasses given = readPoints(counted.Set(), masses, stages["reading"]);
   ImageGrid cells;
   if (target.HasReference)
@@ -206,6 +230,7 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
     findBounds(counted.Set(), stages["bounds"], bounds);
     cells = this->CellsIn(bounds);
   }
+  // No points anywhere, or an empty reference: all ranks return an empty output.
   if (cells.IsEmpty())
   {
     return {};
@@ -216,10 +241,13 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
     requireMemoryFor(numberOfValues(cells) / ranks.Count(), cells);
   }
   const ImageGrid grid = this->GridOf(cells, target.HasReference);
+  // The image has the geometry of the whole; each rank then has its own extent of it.
   applyGrid(grid, output);
   Extent wanted = extentToGive(grid.Extent(), target.Output, ranks);
   output->SetExtent(wanted.data());
   requireCells(cells);
+  // If one cell got the absolute masses of all ranks, its density would still be finite: the check
+  // comes before any sum can overflow.
   const std::vector<double> sizes = gatherValues(ranks, given.TotalSize());
   const SplatTarget splatTarget{ cells, this->Splat, this->DivideByVolume };
   requireFiniteDensity(std::accumulate(sizes.begin(), sizes.end(), 0.0), splatTarget,
@@ -227,6 +255,7 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
     this->DivideByVolume ? "the cells larger, or switch DivideByVolume off"
                          : "so that the sum of their sizes is a double");
 
+  // Values on points are those of the dual cells around them.
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, grid.Extent());
   const auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(box.Count()));

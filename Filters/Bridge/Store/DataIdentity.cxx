@@ -26,6 +26,7 @@ void DataIdentity::AddNumbers(const double* numbers, int count)
 
 void DataIdentity::AddGrid(const ImageGrid& grid)
 {
+  // Six ends of the extent, 15 numbers of the geometry, and the association.
   for (const int end : grid.Extent())
   {
     this->AddNumber(static_cast<std::uint64_t>(end));
@@ -38,6 +39,7 @@ void DataIdentity::AddGrid(const ImageGrid& grid)
 
 void DataIdentity::AddOptions(const FlowOptions& options)
 {
+  // All members of FlowOptions, in groups of one type: a result may depend on any of them.
   for (const int number : { static_cast<int>(options.Integrator), options.NumberOfSteps,
          options.LeastSteps, options.NeedsEstimate ? 1 : 0, static_cast<int>(options.Lookup),
          static_cast<int>(options.Maps), options.MapSteps })
@@ -50,6 +52,7 @@ void DataIdentity::AddOptions(const FlowOptions& options)
 
 void DataIdentity::AddRules(const DensityRules& rules)
 {
+  // All members of DensityRules, as two readings of one array are different densities.
   for (const int number : { rules.Component, rules.Invert ? 1 : 0, rules.ClampNegative ? 1 : 0,
          rules.Missing.AreNaN ? 1 : 0, static_cast<int>(rules.Empty.Cells) })
   {
@@ -69,6 +72,8 @@ void DataIdentity::AddTimeOf(vtkObject* object)
 
 void DataIdentity::AddArray(vtkAbstractArray* array)
 {
+  // An array that is missing differs from every array, so that the numbers after it are not mixed
+  // up.
   this->AddNumber(array ? 1 : 0);
   this->AddTimeOf(array);
   if (!array)
@@ -82,6 +87,7 @@ void DataIdentity::AddArray(vtkAbstractArray* array)
   this->AddNumber(static_cast<std::uint64_t>(array->GetDataType()));
   this->AddNumber(static_cast<std::uint64_t>(array->GetNumberOfComponents()));
   this->AddNumber(static_cast<std::uint64_t>(array->GetNumberOfTuples()));
+  // Values are hashed later, and only if the times differ.
   if (auto* numeric = vtkDataArray::SafeDownCast(array))
   {
     this->Arrays.push_back(numeric);
@@ -115,6 +121,7 @@ void DataIdentity::Hash(Progress& progress)
   {
     return;
   }
+  // 0 where an array is not contiguous in memory: there is no hash, and times alone decide.
   this->Bits = this->Find ? this->Find(progress) : fingerprint(this->Arrays, progress);
   for (DataIdentity& other : this->Others)
   {
@@ -122,6 +129,7 @@ void DataIdentity::Hash(Progress& progress)
     const bool haveBoth = this->HasHash() && other.HasHash();
     this->Bits = haveBoth ? ((this->Bits * odd) ^ (this->Bits >> 32)) + other.Bits : 0;
   }
+  // Arrays may be deleted from here on, and an identity that is kept must not refer to them.
   this->IsHashed = true;
   this->Arrays.clear();
   this->Find = nullptr;
@@ -165,6 +173,7 @@ bool DataIdentity::IsSameAs(DataIdentity& before, Progress& progress)
 
 std::vector<std::uint64_t> DataIdentity::Content() const
 {
+  // Equal contents mean equal data: the numbers, and the hash of all values.
   std::vector<std::uint64_t> content = this->Numbers;
   content.push_back(this->Bits);
   if (this->Bits == 0)

@@ -30,8 +30,10 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Texture coordinates are single precision in ParaView; this array has them in double precision.
 constexpr const char* exactName = "AreaPreservingExact";
 
+// The values of the property Seams.
 enum SeamsChoice
 {
   AutomaticSeams,
@@ -41,6 +43,7 @@ enum SeamsChoice
 // By the points of the output; 0 0 for those that no triangle with area has. SurfaceT::PointOf
 // gives the place in `positions` of a point of the output.
 template <class ArrayT, class SurfaceT>
+// Shape of the array: points of the output x 2, in [0, 1]^2.
 vtkSmartPointer<ArrayT> coordinatesArray(
   const std::string& name, const SurfaceT& surface, vtkIdType points, ConstPointSpan<2> positions)
 {
@@ -57,6 +60,8 @@ vtkSmartPointer<ArrayT> coordinatesArray(
   return array;
 }
 
+// Adds the conformal map, which keeps angles, and the area-preserving one to the points (paper,
+// Section 5.4), the latter also as the active texture coordinates.
 template <class SurfaceT>
 void attachCoordinates(const SurfaceT& surface, ConstPointSpan<2> conformal,
   ConstPointSpan<2> positions, vtkPolyData* output)
@@ -69,6 +74,7 @@ void attachCoordinates(const SurfaceT& surface, ConstPointSpan<2> conformal,
   data->SetActiveTCoords("AreaPreserving"); // SetTCoords would remove the input's
 }
 
+// The figures of the whole surface as field data, one value each.
 void attachFigures(const MapDistortion& figures, vtkPolyData* output)
 {
   addFieldValue(output, "AreaDistortionRMS", figures.AreaRootMeanSquare);
@@ -83,6 +89,9 @@ public:
   CellDistortions(vtkIdType cells, ConstPointSpan<2> positions)
     : Cells(cells)
     , Positions(positions)
+    // Area distortion: the share of the square over the share of the surface, 1 if areas are kept.
+    // Angle distortion: the quotient of the singular values of the map, 1 if angles are kept. Cells
+    // that are not measured keep these values.
     , Area(make<vtkDoubleArray>("AreaDistortion", 1.0))
     , Angle(make<vtkDoubleArray>("AngleDistortion", 1.0))
     , Flipped(make<vtkUnsignedCharArray>("Flipped", 0))
@@ -93,6 +102,7 @@ public:
   template <class CellOf>
   void Measure(const MeasuredTriangles& triangles, const CellOf& cellOf, Progress& progress)
   {
+    // Triangles have different cells, so that threads write to different tuples.
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
     double* areas = this->Area->GetPointer(0);
     double* angles = this->Angle->GetPointer(0);
@@ -109,6 +119,7 @@ public:
   // Repeated triangles have the values of the first ones.
   void Repeat(const std::vector<RepeatedTriangle>& repeated, vtkIdType firstCell)
   {
+    // A triangle with the places of one before has no place of its own in the disk.
     for (const RepeatedTriangle& one : repeated)
     {
       const vtkIdType cell = firstCell + static_cast<vtkIdType>(one.Triangle);
@@ -150,11 +161,14 @@ MapDistortion measureCells(const TriangleInput& read, const DiskTriangles& surfa
   const auto cellOf = [&read](std::int64_t triangle) {
     return read.FirstCell() + static_cast<vtkIdType>(triangle);
   };
+  // Triangles of the disk are those of the input in their order: map.Distortion has been measured
+  // on them.
   if (!surface.IsRepaired())
   {
     distortions.Measure(measuredTriangles(surface.Disk()), cellOf, progress);
     return map.Distortion;
   }
+  // Three points a given triangle, for which GivenTriangles finds the points of the disk.
   const LargeBuffer<std::int64_t> corners = read.Corners(progress);
   const GivenTriangles given(surface.Repaired(), corners.data());
   const MeasuredTriangles triangles{ given.Surface(), given.AreaShares() };
@@ -164,6 +178,8 @@ MapDistortion measureCells(const TriangleInput& read, const DiskTriangles& surfa
   return measureDistortion(triangles, map.Positions, progress);
 }
 
+// Calls map() with the memory of the flow asked for before: 40 bytes for each of Resolution x
+// Resolution cells, 200 a point (see mapAreaPreserving).
 template <class Map>
 auto withFlowMemory(std::int64_t points, int resolution, const Map& map)
 {
@@ -188,6 +204,7 @@ void attachOrigins(const CutOpenSurface& surface, vtkIdType firstCell, vtkPolyDa
   output->GetPointData()->AddArray(origins);
   const vtkIdType cells = output->GetNumberOfCells();
   auto components = newArray<vtkIntArray>("Component", 1, cells);
+  // Vertices and lines come first among the cells, and have no component.
   std::fill_n(components->GetPointer(0), cells, -1);
   for (std::int64_t triangle = 0; triangle < surface.Given().NumberOfTriangles; ++triangle)
   {
@@ -201,6 +218,7 @@ void attachOrigins(const CutOpenSurface& surface, vtkIdType firstCell, vtkPolyDa
 
 void AreaPreservingParameterization::Check() const
 {
+  // The upper limit keeps the tables of the square at 10.7 GB.
   requireThat(this->Resolution >= 1 && this->Resolution <= AreaPreservingOptions::MaximumResolution,
     "Resolution", this->Resolution, "from 1 to 16384");
   requireChoice("Seams", this->Seams, SeamsTexts);
@@ -210,10 +228,14 @@ void AreaPreservingParameterization::Check() const
 ParameterizationReport AreaPreservingParameterization::Run(
   vtkPolyData* input, Progress& progress, vtkPolyData* output) const
 {
+  // The weights are estimates for large surfaces; the map takes most of the time in any case.
   Stages stages(progress, { { "triangles", 5 }, { "disk", 5 }, { "map", 90 } });
+  // The text completes the error for an input without polygons.
   TriangleInput triangles(input,
     this->Seams == AutomaticSeams ? "it must be a surface" : "it must be a disk",
     stages["triangles"]);
+  // A disk is mapped as it is. Whatever else the input is, holes, handles or several components, is
+  // found by the attempt to make a disk of it.
   std::optional<DiskTriangles> disk;
   try
   {
@@ -221,10 +243,13 @@ ParameterizationReport AreaPreservingParameterization::Run(
   }
   catch (const NoDiskSurface& defect)
   {
+    // The defect names what is wrong and where; with seams it is no error.
     if (this->Seams == NoSeams)
     {
       throw;
     }
+    // After cutting, there may be several disks, and points on seams are there twice: four point
+    // ids do not say which corners are meant.
     if (!this->Corners.Points.empty())
     {
       throw Failure(std::string(defect.what()) +
@@ -238,6 +263,8 @@ ParameterizationReport AreaPreservingParameterization::Run(
 ParameterizationReport AreaPreservingParameterization::MapDisk(const TriangleInput& read,
   const DiskTriangles& surface, Progress& progress, vtkPolyData* output) const
 {
+  // Two steps (paper, Section 5.4): the conformal map to a rectangle, scaled to the unit square,
+  // then the flow from the density that the surface's areas have there to the uniform one.
   const DiskMesh& disk = surface.Disk();
   Stages stages(progress,
     { { "conformal map", 30 }, { "area-preserving map", 55 }, { "triangles", 2 },
@@ -249,9 +276,12 @@ ParameterizationReport AreaPreservingParameterization::MapDisk(const TriangleInp
       disk, conformal.Square, { this->Resolution, this->Polish }, stages["area-preserving map"]);
   });
 
+  // The output has the input's points, so that their arrays are shared; its cells are the
+  // triangles.
   const vtkSmartPointer<vtkPolyData> triangles = read.Triangulated(stages["triangles"]);
   CellDistortions distortions(triangles->GetNumberOfCells(), map.Positions);
   const MapDistortion figures = measureCells(read, surface, map, distortions, stages["distortion"]);
+  // Arrays of the map come after those of the input, and replace arrays of their names.
   output->CopyStructure(triangles);
   output->GetFieldData()->PassData(triangles->GetFieldData());
   output->GetCellData()->PassData(triangles->GetCellData());
@@ -267,6 +297,8 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
   TriangleInput& read, Progress& progress, vtkPolyData* output) const
 {
   Stages stages(progress, { { "seams", 40 }, { "map", 45 }, { "distortion", 3 }, { "output", 2 } });
+  // As for a disk, but each component is cut open, and each disk has a square of its own in an
+  // atlas. Points on seams become several, so that arrays of points are copied.
   CutOpenSurface surface = read.Opened(stages["seams"]);
   const CutSurface& cut = surface.Cut();
   const CutSurfaceMap map = withFlowMemory(cut.NumberOfPoints(), this->Resolution, [&]() {
@@ -275,6 +307,8 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
 
   const CutTriangles given(cut, surface.Given());
   const MeasuredTriangles triangles = given.Measured();
+  // The squares leave gaps in the unit square. Distortions compare shares of areas, so that
+  // positions are scaled until the surface covers an area of 1.
   const std::vector<Point<2>> scaled = scaledToUnitArea(map);
   CellDistortions distortions(
     read.FirstCell() + static_cast<vtkIdType>(surface.Given().NumberOfTriangles), scaled);
@@ -286,6 +320,8 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
     stages["distortion"]);
   distortions.Repeat(cut.Repeated(), read.FirstCell());
   const MapDistortion figures = measureDistortion(triangles, scaled, stages["distortion"]);
+  // After the map: triangles without area choose among the copies of their points by their
+  // positions.
   surface.PlaceDegenerate(map.Positions);
   read.CopyOpened(surface, stages["output"], output);
   distortions.Attach(output->GetCellData());
@@ -298,6 +334,7 @@ ParameterizationReport AreaPreservingParameterization::MapOpened(
 
 void layFlat(vtkPolyData* surface, vtkPolyData* flat)
 {
+  // Two doubles a point: u and v become x and y of the flat surface, z = 0.
   const double* next =
     vtkDoubleArray::SafeDownCast(surface->GetPointData()->GetArray(exactName))->GetPointer(0);
   const vtkIdType count = surface->GetNumberOfPoints();
@@ -313,6 +350,8 @@ void layFlat(vtkPolyData* surface, vtkPolyData* flat)
   for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(flat->GetPointData()),
          static_cast<vtkDataSetAttributes*>(flat->GetCellData()) })
   {
+    // Normals and tangents of the surface in space would light the flat one wrongly. As arrays they
+    // stay.
     data->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
     data->SetActiveAttribute(-1, vtkDataSetAttributes::TANGENTS);
   }

@@ -35,6 +35,7 @@ double costOfMap(double points)
 
 void SurfaceSampler::Check() const
 {
+  // Steps of the flow and the seed are checked where all filters with a flow check them.
   const std::int64_t number = this->Options.NumberOfSamples;
   const std::int64_t resolution = this->Options.Resolution;
   requireThat(number >= 1, "NumberOfParticles", number, "at least 1");
@@ -71,11 +72,16 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   const std::string particles =
     std::to_string(this->Options.NumberOfSamples) + " particles (see NumberOfParticles)";
   const double bytes = asked * BytesOfSurfaceParticle;
+  // Asked for before the surface is read: NumberOfParticles may be far too large.
   requireMemory({ particles, bytes });
 
   TriangleInput read(input, "it must be a surface", stages["input"]);
   const AllTriangles surface = read.Whole(stages["triangles"]);
+  // Coordinates are in units of the surface's size, and so is their rounding; points that differ by
+  // less are one, which closes the edges between triangles.
   options.Rounding = surface.Rounding();
+  // Shape: one mass a triangle, the density integrated over its area. `relative` gives values at
+  // points or of triangles, or neither for the density 1.
   const SurfaceMasses masses = density.MassesOf(read, surface, stages["masses"]);
   const SurfaceDensityValues relative = masses.Density();
   const TriangleSurface triangles = surface.Surface();
@@ -99,6 +105,7 @@ SurfaceSamplingReport SurfaceSampler::Relax(const SurfaceInput& given,
   writeSurfaceParticles(
     { given, read, surface, samples.Places }, masses.Total(), stages["particles"], output);
   SurfaceSamplingReport report;
+  // A relaxed set has no steps and no map, so that the other numbers stay 0.
   report.Particles = samples.Places.size();
   RepairCounts repairs; // nothing else that is wrong changes the result
   repairs.Repeated = surface.Repeated();
@@ -150,6 +157,8 @@ SurfaceSamplingReport SurfaceSampler::Transport(const SurfaceInput& given,
 
   writeSurfaceParticles(
     { given, read, surface, samples.Places }, masses.Total(), stages["particles"], output);
+  // Particles that ended in a cell of the grid without mass, and were moved to the nearest one with
+  // mass.
   addFieldValue(output, "MovedParticles", static_cast<double>(samples.Flow.MovedToMass));
   addSteps(output, { samples.Flow });
   return { samples.Places.size(), samples.Flow.MovedToMass,

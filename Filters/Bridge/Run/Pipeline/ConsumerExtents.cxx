@@ -24,14 +24,17 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
+// VTK's extent without points: each axis ends before it begins.
 const int emptyExtent[6] = { 0, -1, 0, -1, 0, -1 };
 
+// Only structured data have extents, which the executive checks; others are requested by pieces.
 bool isStructured(vtkInformation* output)
 {
   vtkDataObject* data = vtkDataObject::GetData(output);
   return data && data->GetExtentType() == VTK_3D_EXTENT;
 }
 
+// Whether a requested extent is held by another one. The empty request is always met.
 bool isWithin(const int* part, const int* whole)
 {
   const bool isEmpty = part[0] > part[1] || part[2] > part[3] || part[4] > part[5];
@@ -40,6 +43,7 @@ bool isWithin(const int* part, const int* whole)
       part[4] >= whole[4] && part[5] <= whole[5]);
 }
 
+// The announced extent of an output; empty if it announces none.
 std::array<int, 6> wholeExtent(vtkInformation* output)
 {
   std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
@@ -50,6 +54,8 @@ std::array<int, 6> wholeExtent(vtkInformation* output)
   return extent;
 }
 
+// Makes a filter downstream execute for an empty extent. The executive keeps the extent in three
+// keys: without the other two it takes the one that is set here.
 void clearUpdateExtent(vtkInformation* output)
 {
   output->Set(Pipeline::UPDATE_EXTENT(), emptyExtent, 6);
@@ -64,6 +70,7 @@ bool visitConsumers(vtkInformation* output, const Visit& visit)
 {
   // A deleted filter remains in CONSUMERS(), as a dangling pointer, but holds no reference to the
   // information object any more. Which entry it is cannot be determined.
+  // The information object has one owner besides its consumers: the executive that produces it.
   const int count = vtkExecutive::CONSUMERS()->Length(output);
   if (output->GetReferenceCount() != count + 1)
   {
@@ -73,6 +80,8 @@ bool visitConsumers(vtkInformation* output, const Visit& visit)
   vtkExecutive** consumers = vtkExecutive::CONSUMERS()->GetExecutives(output);
   for (int i = 0; i < count; ++i)
   {
+    // Outputs that are not structured end the search: nothing downstream of them depends on an
+    // extent.
     vtkInformationVector* outputs = consumers[i]->GetOutputInformation();
     for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
     {
@@ -94,6 +103,7 @@ struct PieceRequest
   std::array<int, 3> Values; // the values of the keys, see pieceKeys
 };
 
+// In a function, as the keys of VTK are created when its library is loaded.
 std::array<vtkInformationIntegerKey*, 3> pieceKeys()
 {
   return { Pipeline::UPDATE_PIECE_NUMBER(), Pipeline::UPDATE_NUMBER_OF_PIECES(),
@@ -116,8 +126,12 @@ std::vector<PieceRequest> pieceRequests(vtkInformation* output)
   return requests;
 }
 
+// UpdateInformation of a consumer reaches only that one, so that the filters downstream of it
+// follow, one after the other, from the producer on.
 bool updateInformationOfConsumers(vtkInformation* output)
 {
+  // Extents of earlier requests go first: they may be outside the new whole extent, which is an
+  // error of the executive.
   const bool isComplete = visitConsumers(output, clearUpdateExtent);
   const int count = isComplete ? vtkExecutive::CONSUMERS()->Length(output) : 0;
   for (int i = 0; i < count; ++i)
@@ -137,6 +151,8 @@ bool updateInformationOfConsumers(vtkInformation* output)
 
 bool announceEmptyExtents(vtkInformationVector* outputs)
 {
+  // Outputs were emptied after an error or an abort. Filters downstream execute nevertheless, and
+  // must not read what was announced before.
   const auto announceEmpty = [](vtkInformation* output) {
     output->Set(Pipeline::WHOLE_EXTENT(), emptyExtent, 6);
     clearUpdateExtent(output);
@@ -165,6 +181,8 @@ void announceToViews(vtkInformation* output, const std::array<int, 6>& before)
   {
     return;
   }
+  // What the image really holds. Requests outside are met with nothing, instead of a read past its
+  // end.
   const int* made =
     vtkDataObject::GetData(output)->GetInformation()->Get(vtkDataObject::DATA_EXTENT());
   const auto request = [made](vtkInformation* information) {
@@ -174,6 +192,8 @@ void announceToViews(vtkInformation* output, const std::array<int, 6>& before)
   const bool isComplete = visitConsumers(output, [&](vtkInformation* next) {
     vtkExecutive* executive = vtkExecutive::PRODUCER()->GetExecutive(next);
     const int* requested = next->Get(Pipeline::UPDATE_EXTENT());
+    // ParaView's filter passes the data on unchanged, so that it may announce the same extent. Any
+    // other filter computes its extent by itself.
     if (executive->GetAlgorithm()->IsA("vtkPVPostFilter") && wholeExtent(next) == before)
     {
       next->CopyEntry(output, Pipeline::WHOLE_EXTENT());
@@ -184,6 +204,7 @@ void announceToViews(vtkInformation* output, const std::array<int, 6>& before)
       clearUpdateExtent(next);
     }
   });
+  // Where a consumer cannot be reached, its request may be one of the extent before.
   if (isComplete)
   {
     request(output);
@@ -211,6 +232,7 @@ bool clearUnmetRequests(vtkInformationVector* outputs)
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
   {
     vtkInformation* output = outputs->GetInformationObject(i);
+    // Later pieces of an image are empty, or a series has a smaller grid at this time.
     const int* requested = output->Get(Pipeline::UPDATE_EXTENT());
     if (requested && isStructured(output) &&
       !isWithin(requested,
