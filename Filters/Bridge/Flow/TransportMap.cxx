@@ -68,11 +68,11 @@ void passArrays(
   }
 }
 
-template <int D>
 // One run in D dimensions: table building, sampling of the map, correction, differentiation. The
 // samples are the centres of a lattice, moved forward (x(0) to x(1) of Eqs. 10 to 12) or backward
 // (Section 4.2). With a target, a sample goes backward to the uniform measure and from there
 // forward to the target (Section 3.4), or by the optimal map between both.
+template <int D>
 class MapMaker
 {
 public:

@@ -221,7 +221,7 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
     own = grid;
   }
   copyPoints(whole, kept, own);
-  // Its flags have been obeyed; filters downstream would leave out points a second time.
+  // None of these points is a duplicate any more.
   own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   tooShort.AddEmptyTo(own);
   own->GetCellData()->Initialize(); // its cells are others

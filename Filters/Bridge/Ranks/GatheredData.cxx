@@ -325,7 +325,7 @@ vtkSmartPointer<vtkPointSet> countedPart(vtkPointSet* own, PointSetKind kind, co
 }
 
 // All parts appended by one of VTK's filters, which keeps the arrays that all parts have. Field
-// data come from the first part, as VTK's filters for composite data choose.
+// data are those of the first part.
 template <class AppendT>
 vtkSmartPointer<vtkPointSet> appendWith(const std::vector<DataPart>& parts)
 {

@@ -122,7 +122,7 @@ MpiRun::Arrivals MpiRun::Announce(
   {
     return arriving;
   }
-  // No further exchange takes place: what the ranks do next, such as empty outputs, is local.
+  // After the reports no exchange takes place: what ranks do next, such as empty outputs, is local.
   this->HasEnded = true;
   if (worst == State::Failed)
   {

@@ -26,7 +26,7 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 // The bytes that the core takes while it runs.
 double coreMemory(bool byTransport, int dimension, double cells, double points)
 {
-  // Measured peaks in bytes: moments of the density's rows for integrals over polygons; the power
+  // About the most bytes: moments of the density's rows for integrals over polygons; the power
   // diagram with the factors of its linear systems; the neighbours within reach of a Gaussian.
   constexpr double rowMoments = 18.0; // a cell of the density
   constexpr double diagram = 2048.0;  // a point

@@ -209,9 +209,9 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
     [&]() { return measureQuality<D>(particles, flow.Flow<D>(), grid, blockSize, progress); });
 }
 
-template <int D>
 // Only the shares of boxes around particles are needed: tiles serve them in two and three
 // dimensions.
+template <int D>
 FlowTables choose(TableSetting setting, const ImageGrid& grid, std::int64_t particles)
 {
   return requireTables(chooseTablesForShares<D>(

@@ -57,8 +57,7 @@ vtkSmartPointer<ArrayT> moveToArray(const char* name, std::vector<std::int64_t>&
 // The vector is empty afterwards.
 void movePoints(std::vector<Point<3>>& from, vtkPolyData* to)
 {
-  // Three doubles a point. The peak is both copies; the vector ends here, before arrays of cells
-  // are made.
+  // Three doubles a point. The vector is freed before arrays of cells are made.
   const auto count = static_cast<vtkIdType>(from.size());
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
   for (vtkIdType i = 0; i < count; ++i)

@@ -71,25 +71,25 @@ DoubleTuples placesOf(vtkPointSet* sites, Progress& progress)
 }
 
 // The tables of the pixels are the peak.
-template <int D>
 // Labels are 8 bytes a pixel, and asked for separately.
+template <int D>
 double bytesOfLabelling(const ImageGrid& grid)
 {
   return RectifiedFlow<D>::MemoryFor(grid.Size<D>());
 }
 
 // With the places of the pixels in the uniform measure.
-template <int D>
 // In 1D, cells are intervals in the order of the sites, without a flow.
+template <int D>
 double bytesOfLabellingByMass(const ImageGrid& grid)
 {
   return D == 1 ? 0.0
                 : bytesOfLabelling<D>(grid) + numberOfCells<D>(grid.Size<D>()) * D * sizeof(double);
 }
 
-template <int D>
 // The sites in the pixels of the grid. Each site needs a pixel at least, as masses are whole
 // pixels.
+template <int D>
 SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& progress)
 {
   const std::int64_t count = sites->GetNumberOfPoints();
@@ -264,8 +264,8 @@ SiteDivision divideByPower(
   const DoubleTuples points = placesOf(sites, stages["points"]);
   SiteDivision division;
   // The factors of the linear systems are the peak.
-  // Measured peaks: Newton's method solves a sparse linear system of one unknown a site, and
-  // integrates the density over polygons by moments of its rows.
+  // Newton's method solves sparse linear systems with one unknown a site. Moments of the density's
+  // rows give its integrals over polygons.
   constexpr double eachSite = 1500.0;
   constexpr double rowMoments = 18.0; // bytes a cell of the density
   const double moments =

@@ -42,8 +42,8 @@ enum SeamsChoice
 
 // By the points of the output; 0 0 for those that no triangle with area has. SurfaceT::PointOf
 // gives the place in `positions` of a point of the output.
-template <class ArrayT, class SurfaceT>
 // Shape of the array: points of the output x 2, in [0, 1]^2.
+template <class ArrayT, class SurfaceT>
 vtkSmartPointer<ArrayT> coordinatesArray(
   const std::string& name, const SurfaceT& surface, vtkIdType points, ConstPointSpan<2> positions)
 {

@@ -24,6 +24,7 @@ namespace
 vtkSmartPointer<vtkPointData> sample(const AdvectedImage& image, int owner,
   const std::vector<std::string>& names, ConstPointSpan<3> points, Progress& progress)
 {
+  // An image with the geometry of the step and only the wanted arrays, whose values are shared.
   vtkNew<vtkImageData> some;
   some->CopyStructure(image.Image);
   for (const std::string& name : names)
@@ -32,11 +33,13 @@ vtkSmartPointer<vtkPointData> sample(const AdvectedImage& image, int owner,
       image.Image->GetAttributes(owner)->GetAbstractArray(name.c_str()));
   }
   auto values = vtkSmartPointer<vtkPointData>::New();
+  // Arrays of points are interpolated, those of cells have one value a cell.
   sampleImage(some, image.Grid, image.Grid.Extent(), points, progress, values);
   return values;
 }
 
 // The centres of all cells, or the points, of a grid.
+// Shape: values of the grid x 3 doubles, in physical space.
 SeriesPositions placesOf(const ImageGrid& grid)
 {
   vtkNew<vtkImageData> image;
@@ -52,6 +55,7 @@ SeriesPositions placesOf(const ImageGrid& grid)
   });
 }
 
+// Sums and means are taken in double precision; Write converts to the type of the array.
 vtkSmartPointer<vtkDoubleArray> doublesOf(vtkPointData* values, const std::string& name)
 {
   vtkDataArray* array = values->GetArray(name.c_str());
@@ -111,6 +115,7 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
     return isAdvected(image, owner, array) ? array : nullptr;
   };
   std::vector<std::string> names;
+  // Both images are searched, so that an array that only one of them has is reported.
   for (const auto& [one, other] : { std::pair(&first, &second), std::pair(&second, &first) })
   {
     vtkDataSetAttributes* attributes = one->Image->GetAttributes(owner);
@@ -125,12 +130,14 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
       const bool isSame = there && there->GetDataType() == array->GetDataType() &&
         there->GetNumberOfComponents() == array->GetNumberOfComponents();
       std::vector<std::string>& list = isSame ? names : this->Lacking;
+      // Both images name it, but it is wanted once.
       if (std::find(list.begin(), list.end(), array->GetName()) == list.end())
       {
         list.emplace_back(array->GetName());
       }
     }
   }
+  // Floating-point arrays first, in their order in the first image.
   const auto labels = std::stable_partition(names.begin(), names.end(),
     [&](const std::string& name) { return !isOfLabels(find(first, name.c_str())); });
   this->Labels[owner == vtkDataObject::POINT ? 1 : 0].Make(
@@ -140,6 +147,8 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
   {
     return;
   }
+  // Where no mass arrives, a mean by mass is 0 / 0: the values of both steps at the place itself
+  // are interpolated in time there. These places are the same for all times of the interval.
   const SeriesPositions places = placesOf(geometry.WithValuesOn(owner == vtkDataObject::POINT));
   const auto atFrom = sample(first, owner, names, particles.From->Span(), progress);
   const auto atTo = sample(second, owner, names, particles.To->Span(), progress);
@@ -160,6 +169,7 @@ void AdvectedArrays::Write(const SeriesSnapshot& moment, const ImageGrid& geomet
 {
   for (const int owner : { vtkDataObject::CELL, vtkDataObject::POINT })
   {
+    // Arrays of points are splat onto the dual cells around points, whatever the density is on.
     const ImageGrid own = geometry.WithValuesOn(owner == vtkDataObject::POINT);
     const SplatTarget target{ own, splat, false };
     const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
@@ -170,6 +180,7 @@ void AdvectedArrays::Write(const SeriesSnapshot& moment, const ImageGrid& geomet
       {
         continue;
       }
+      // The masses without division by the volume: only the ratio of two sums matters.
       if (!mass)
       {
         mass = newArray<vtkDoubleArray>("Mass", 1, box.Count());
@@ -203,6 +214,7 @@ void AdvectedArrays::WriteOne(const Advected& advected, const SeriesSnapshot& mo
     };
     const AdvectedValues values{ componentOf(advected.OfParticles), componentOf(advected.InPlace),
       components };
+    // sums = sum of m v of the particles by the same kernel as mass = sum of m; then sums / mass.
     writeMoments(values, moment, progress, moments->GetPointer(0));
     splatDistributed(
       moment.Points(), moments->GetPointer(0), moment.Numbers(), target, wanted, progress, sums);

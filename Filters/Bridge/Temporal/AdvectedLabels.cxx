@@ -33,6 +33,7 @@ std::string keyOf(vtkAbstractArray* array, vtkIdType tuple)
     }
     return key;
   }
+  // The bytes of all components of the tuple: equal numbers of one type have equal bytes.
   if (vtkDataArray::SafeDownCast(array))
   {
     const auto size = static_cast<std::size_t>(array->GetDataTypeSize());
@@ -40,6 +41,7 @@ std::string keyOf(vtkAbstractArray* array, vtkIdType tuple)
     return { bytes + size * static_cast<std::size_t>(first),
       size * static_cast<std::size_t>(components) };
   }
+  // Texts and variants: type and length go first, so that "a", "bc" differs from "ab", "c".
   for (int c = 0; c < components; ++c)
   {
     const vtkVariant value = array->GetVariantValue(first + c);
@@ -50,6 +52,8 @@ std::string keyOf(vtkAbstractArray* array, vtkIdType tuple)
 }
 
 // Its values are contiguous in memory and stay, whatever a source writes next.
+// CreateDataArray makes contiguous arrays also for arrays of other layouts; arrays of text keep
+// their own class.
 vtkSmartPointer<vtkAbstractArray> copyOf(vtkAbstractArray* array)
 {
   auto copy = vtkSmartPointer<vtkAbstractArray>::Take(vtkDataArray::SafeDownCast(array)
@@ -59,6 +63,7 @@ vtkSmartPointer<vtkAbstractArray> copyOf(vtkAbstractArray* array)
   return copy;
 }
 
+// Calls take(array, tuples) with a tuple for each wanted cell of the grid.
 template <int D>
 void find(const SeriesLabels& labels, const SeriesSnapshot& moment, const ImageGrid& grid,
   const TupleBox& wanted, const std::vector<std::vector<std::int64_t>>& equal, Progress& progress,
@@ -76,6 +81,7 @@ vtkSmartPointer<vtkAbstractArray> newLike(
   made->SetName(name.c_str());
   made->SetNumberOfComponents(array->GetNumberOfComponents());
   made->CopyComponentNames(array);
+  // 8 bytes a value is the size of the largest number.
   const double values = static_cast<double>(tuples) * array->GetNumberOfComponents();
   withMemory({ "the array " + name, 8.0 * values }, [&]() { made->SetNumberOfTuples(tuples); });
   return made;
@@ -83,6 +89,8 @@ vtkSmartPointer<vtkAbstractArray> newLike(
 
 bool isOfLabels(vtkAbstractArray* array)
 {
+  // A mean of two labels, such as materials 1 and 3, would be a label that has nothing to do with
+  // them.
   const int type = array->GetDataType();
   return type != VTK_DOUBLE && type != VTK_FLOAT;
 }
@@ -101,6 +109,7 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
     const auto arrayOf = [&](const AdvectedImage& image) {
       return copyOf(image.Image->GetAttributes(owner)->GetAbstractArray(name.c_str()));
     };
+    // Copies of both: the next execution of the source may overwrite its arrays.
     const Labels& labels =
       this->Arrays.emplace_back(Labels{ name, { arrayOf(first), arrayOf(second) } });
     const std::array<std::int64_t, 2> tuples{ labels.Arrays[0]->GetNumberOfTuples(),
@@ -117,6 +126,8 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
     return;
   }
   const bool onPoints = owner == vtkDataObject::POINT;
+  // Arrays of cells with a density on points, or the reverse: a particle's cloud then covers
+  // parts of up to 2^d tuples, and each part counts separately.
   const bool isAcross = first.Grid.IsOnPoints() != onPoints;
   const double parts = isAcross ? std::exp2(first.Grid.Dimension()) : 1.0;
   withMemory({ "the labels that move along",
@@ -131,6 +142,7 @@ void AdvectedLabels::Make(int owner, const std::vector<std::string>& names,
 void AdvectedLabels::Write(const SeriesSnapshot& moment, const ImageGrid& geometry,
   const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
+  // All ranks have the same arrays, so that all return here or none does.
   if (this->Arrays.empty())
   {
     return;
@@ -145,6 +157,7 @@ void AdvectedLabels::Write(const SeriesSnapshot& moment, const ImageGrid& geomet
     {
       const vtkIdType tuple = tuples[static_cast<std::size_t>(i)];
       const bool isFirst = tuple < ofFirst;
+      // The whole tuple comes from one particle: components are never mixed.
       made->SetTuple(i, isFirst ? tuple : tuple - ofFirst, labels.Arrays[isFirst ? 0 : 1]);
     }
     output->GetAttributes(this->Owner)->AddArray(made);

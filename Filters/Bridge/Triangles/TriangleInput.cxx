@@ -44,11 +44,13 @@ auto withSurface(const MemoryPlan& plan, const Function& function)
   }
 }
 
+// For messages of memory: "12 triangles".
 std::string countOf(const TriangleSurface& surface)
 {
   return std::to_string(surface.NumberOfTriangles) + " triangles";
 }
 
+// Triangles from three point ids each, for the output. AllocateExact takes the memory once.
 vtkSmartPointer<vtkCellArray> cellsOf(
   const std::int64_t* corners, std::int64_t count, Progress& progress)
 {
@@ -81,9 +83,12 @@ TriangleInput::TriangleInput(vtkPolyData* input, const std::string& need, Progre
   : Surface(input)
   , FirstPolygon(input->GetNumberOfVerts() + input->GetNumberOfLines())
 {
+  // Coordinates are copied to doubles, three a point, in the order of the input's points: cutting
+  // and predicates need one type.
   Stages stages(progress, { { "points", 2 }, { "triangles", 8 } });
   LargeBuffer<double> coordinates = readSurfacePoints(input, need, stages["points"]);
   const ConstPointSpan<3> points{ coordinates.data(), coordinates.size() / 3 };
+  // What rounding leaves of differences at one place: that of float if all coordinates are floats.
   const double rounding = roundingOfPoints(points);
   LargeBuffer<std::int64_t> corners = this->ReadCorners(points, rounding, stages["triangles"]);
   this->Triangles = { std::move(coordinates), std::move(corners), rounding };
@@ -94,6 +99,7 @@ TriangleInput::TriangleInput(vtkPolyData* input, const std::string& need, Progre
 LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
   ConstPointSpan<3> points, double rounding, Progress& work)
 {
+  // The usual case: Polygons stays empty, which says that triangle i is polygon i.
   if (isAllTriangles(this->Surface))
   {
     const vtkIdType count = this->Surface->GetNumberOfPolys();
@@ -101,11 +107,15 @@ LargeBuffer<std::int64_t> TriangleInput::ReadCorners(
                         static_cast<double>(count) * 3.0 * sizeof(std::int64_t) },
       [&]() { return this->Corners(work); });
   }
+  // A polygon of n corners gives n - 2 triangles, and so does a strip of n points. Memory: three
+  // corners and the polygon for each.
   const PolygonSource polygons = polygonsOf(this->Surface);
   const std::int64_t count = polygons.NumberOfTriangles;
   PolygonTriangles cut = withMemory({ std::to_string(count) + " triangles of the input surface",
                                       static_cast<double>(count) * 4.0 * sizeof(std::int64_t) },
     [&]() { return cutPolygons(polygons, points, rounding, work); });
+  // Triangles will copy the cell data of their polygons, so that short arrays are an error before
+  // the work.
   vtkCellData* data = this->Surface->GetCellData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -128,6 +138,8 @@ DiskTriangles TriangleInput::Disk(Progress& progress)
                                       static_cast<double>(surface.Points.size()) * 40.0 +
                                         static_cast<double>(surface.NumberOfTriangles) * 80.0 },
       [&]() { return DiskTriangles(this->Triangles, progress); });
+    // The peak of the maps comes later: 24 bytes a point and 24 a triangle are given back before
+    // it.
     this->Triangles.FreePoints();
     if (this->IsInput())
     {
@@ -155,8 +167,12 @@ CutOpenSurface TriangleInput::Opened(Progress& progress)
                static_cast<double>(this->Triangles.Surface().NumberOfTriangles) * 150.0 },
     [&]() { this->Triangles.CloseTJunctions(TJunctionScope::All, stages["T-junctions"]); });
   const TriangleSurface surface = this->Triangles.Surface();
+  // Edges, components, shortest paths and the cut triangles (see CutSurface). Each component is
+  // mapped conformally in turn, the largest of which may have all points.
   constexpr double bytesOfTriangle = 250.0;
   SeamOptions options;
+  // Points within rounding are merged before edges are found: without that, seams of texture
+  // coordinates would be boundaries.
   options.Rounding = this->Triangles.Rounding();
   return withSurface({ "the seams of " + countOf(surface),
                        static_cast<double>(surface.NumberOfTriangles) * bytesOfTriangle +
@@ -167,6 +183,7 @@ CutOpenSurface TriangleInput::Opened(Progress& progress)
 AllTriangles TriangleInput::Whole(Progress& progress)
 {
   const unsigned char* ghosts = ghostFlags(this->Surface, vtkDataObject::CELL, "input surface");
+  // Polygons of the input carry the flags; all triangles of a polygon share its flag.
   const AllTriangles::IsLeftOut isGhost = [this, ghosts](std::int64_t triangle) {
     return (ghosts[this->CellOf(triangle)] & ghostCell) != 0;
   };
@@ -175,6 +192,8 @@ AllTriangles TriangleInput::Whole(Progress& progress)
                        static_cast<double>(surface.NumberOfTriangles) * 80.0 +
                          static_cast<double>(surface.Points.size()) * 48.0 },
     [&]() {
+      // The buffers move into the result, so that nothing is in memory twice. Triangulated() is not
+      // possible after that.
       return AllTriangles(this->Triangles.TakePoints(), this->Triangles.TakeCorners(),
         ghosts ? isGhost : nullptr, progress);
     });
@@ -183,6 +202,7 @@ AllTriangles TriangleInput::Whole(Progress& progress)
 // Disk may have freed the corners; those of an input of triangles are read again.
 LargeBuffer<std::int64_t> TriangleInput::Corners(Progress& progress) const
 {
+  // Cut triangles exist only here, so that Disk has not freed them.
   if (!this->IsInput())
   {
     const TriangleSurface surface = this->Triangles.Surface();
@@ -200,6 +220,7 @@ LargeBuffer<std::int64_t> TriangleInput::Corners(Progress& progress) const
 
 vtkSmartPointer<vtkPolyData> TriangleInput::Triangulated(Progress& progress) const
 {
+  // Without a cut, the input's own cell arrays and data are the output's.
   if (this->IsInput())
   {
     return this->Surface;
@@ -207,15 +228,19 @@ vtkSmartPointer<vtkPolyData> TriangleInput::Triangulated(Progress& progress) con
   const TriangleSurface triangles = this->Triangles.Surface();
   Stages stages(progress, { { "triangles", 1 }, { "arrays", 2 } });
   auto made = vtkSmartPointer<vtkPolyData>::New();
+  // Three point ids and an offset a triangle, with a reserve.
   requireMemory({ "the cells of the surface's " + countOf(triangles),
     static_cast<double>(triangles.NumberOfTriangles) * 5.0 * sizeof(vtkIdType) });
   setTriangles(this->Surface, this->Surface->GetPoints(),
     cellsOf(triangles.Triangles, triangles.NumberOfTriangles, stages["triangles"]), made);
+  // Points stay in number and order, so that their arrays are shared.
   made->GetPointData()->PassData(this->Surface->GetPointData());
   copyTuples(
     { this->Surface->GetCellData(), this->Surface->GetNumberOfCells(), "cell", "input surface" },
     made->GetNumberOfCells(),
     [this](vtkIdType cell) {
+      // Vertices and lines come first, as in the input; then each triangle has the data of its
+      // polygon.
       return cell < this->FirstPolygon
         ? cell
         : this->CellOf(this->Triangles.GivenTriangle(cell - this->FirstPolygon));
@@ -230,6 +255,7 @@ void TriangleInput::CopyOpened(
   Stages stages(progress, { { "triangles", 2 }, { "opened triangles", 1 }, { "points", 2 } });
   const vtkSmartPointer<vtkPolyData> from = this->Triangulated(stages["triangles"]);
   vtkNew<vtkPoints> points;
+  // Copies have the coordinates of their originals to the bit, so that seams do not open in space.
   points->SetDataType(from->GetPoints()->GetDataType());
   const std::int64_t count = opened.NumberOfPoints();
   requireMemory({ "the points of the surface with its seams",
@@ -255,6 +281,7 @@ std::string TriangleInput::RepairWarning(
 {
   RepairCounts counts;
   static_cast<SurfaceRepairs&>(counts) = repairs;
+  // Closing T-junctions leaves out flat triangles, too, before the repairs count their own.
   counts.FlatTriangles += this->Triangles.FlatTriangles();
   counts.TJunctions = this->Triangles.TJunctions();
   counts.PartedEdges = partedEdges;

@@ -271,7 +271,7 @@ void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVe
       this->UntimedOutputs[output] = StateOf(output);
     }
   }
-  // Their data from now on count as made by this filter, until their time says otherwise.
+  // From here on their data count as made by this filter, until their time says otherwise.
   for (auto& [cachingFilter, time] : this->CachingFilters)
   {
     time = cachingFilter->GetOutputDataObject(0)->GetUpdateTime();
