@@ -37,6 +37,8 @@ namespace
 {
 
 // The newest of a data object's own and of all that are in it, whose arrays count.
+// A composite data set is not modified when a program changes a block in place, so the times of its
+// blocks decide, too. Inner nodes are visited since they change when a block is replaced.
 std::uint64_t timeOf(vtkDataObject* data)
 {
   vtkMTimeType newest = data ? data->GetMTime() : 0;
@@ -56,6 +58,8 @@ std::uint64_t timeOf(vtkDataObject* data)
   return static_cast<std::uint64_t>(newest);
 }
 
+// The connectivity of one kind of cells: offsets (cells + 1 values) and point ids, as VTK 9 stores
+// them. The time is that of the vtkCellArray, which owns both arrays.
 void addCells(vtkCellArray* cells, DataIdentity& content)
 {
   content.AddTimeOf(cells);
@@ -64,6 +68,8 @@ void addCells(vtkCellArray* cells, DataIdentity& content)
 }
 
 // Without an array of types (VTK may keep implicit ones) every grid with cells may have polyhedra.
+// The faces of polyhedra do not follow from their points and are stored apart, so a grid that may
+// have them needs more than its connectivity for its identity.
 bool mayHavePolyhedra(vtkUnstructuredGrid* grid)
 {
   auto* types = vtkUnsignedCharArray::SafeDownCast(cellTypesOf(grid));
@@ -76,6 +82,7 @@ bool mayHavePolyhedra(vtkUnstructuredGrid* grid)
   return std::find(first, last, static_cast<unsigned char>(VTK_POLYHEDRON)) != last;
 }
 
+// The six bounds of a structured extent, in points. The cast keeps negative bounds distinct.
 void addExtent(const int* extent, DataIdentity& content)
 {
   for (int i = 0; i < 6; ++i)
@@ -92,6 +99,8 @@ std::string Leaf::Text() const
     (!this->Name.empty() ? " ('" + this->Name + "')" : "") + " of the input";
 }
 
+// The iterator skips empty leaves. The flat index of a leaf counts empty ones, too, so that it is
+// the same on all ranks, even if each has only some of the leaves.
 std::vector<Leaf> leavesOf(vtkCompositeDataSet* data)
 {
   std::vector<Leaf> leaves;
@@ -132,9 +141,12 @@ std::vector<DensityBlock> densityBlocks(
 {
   std::vector<DensityBlock> blocks;
   SkippedLeaves left;
+  // Every block gets the time of the whole object: blocks may be new objects in each run, as
+  // those of AMR grids and hyper tree grids are, whose own times say nothing about the input.
   const std::uint64_t time = timeOf(data);
   const auto add = [&](vtkDataObject* object, const std::string& name, std::int64_t number) {
     vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(object);
+    // A vtkHyperTreeGrid is no vtkDataSet, so its leaves become an unstructured grid that is.
     if (auto* trees = vtkHyperTreeGrid::SafeDownCast(object))
     {
       set = cellsOfTrees(trees, progress);
@@ -144,11 +156,14 @@ std::vector<DensityBlock> densityBlocks(
       left.Add(object, name);
     }
     left.DataSets += set ? 1 : 0;
+    // Data sets without points are usual on ranks that have nothing of a block.
     if (set && set->GetNumberOfPoints() > 0)
     {
       blocks.push_back({ set, name, number, time });
     }
   };
+  // All ranks take part, as this is collective: those whose data are no AMR, or have none, give
+  // nullptr.
   const vtkSmartPointer<vtkCompositeDataSet> grids =
     markRefinedCells(vtkOverlappingAMR::SafeDownCast(data), ranks);
   auto* composite = grids ? grids.Get() : vtkCompositeDataSet::SafeDownCast(data);
@@ -180,6 +195,8 @@ void addGeometry(const DensityBlock& block, DataIdentity& content)
   {
     content.AddArray(data->GetAttributes(owner)->GetArray(vtkDataSetAttributes::GhostArrayName()));
   }
+  // Coordinates of meshes, 3 values a point. Images and rectilinear grids have none, but the
+  // numbers from which VTK computes them.
   if (auto* points = vtkPointSet::SafeDownCast(data))
   {
     content.AddArray(points->GetPoints() ? points->GetPoints()->GetData() : nullptr);
@@ -216,6 +233,7 @@ void addGeometry(const DensityBlock& block, DataIdentity& content)
   }
   else if (auto* surface = vtkPolyData::SafeDownCast(data))
   {
+    // Vertices are left out: cells of no length or area have no part in a density.
     for (vtkCellArray* cells : { surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
     {
       addCells(cells, content);
@@ -228,6 +246,7 @@ void addGeometry(const DensityBlock& block, DataIdentity& content)
   }
 }
 
+// All arrays count, and which are active, for results that pass arrays on, such as joined images.
 void addArrays(const DensityBlock& block, DataIdentity& content)
 {
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })

@@ -26,6 +26,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// What decides whether the blocks of this rank are those of the last run: their numbers, cells and
+// all arrays, as all of these are sent to the other ranks.
 DataIdentity contentOf(const std::vector<DensityBlock>& blocks)
 {
   DataIdentity content;
@@ -38,6 +40,8 @@ DataIdentity contentOf(const std::vector<DensityBlock>& blocks)
   return content;
 }
 
+// The blocks in the order of their numbers, as gatherDataParts expects them. The data are shared,
+// not copied.
 std::vector<DataPart> partsOf(const std::vector<DensityBlock>& blocks)
 {
   std::vector<DataPart> parts;
@@ -78,6 +82,7 @@ vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ran
   return all;
 }
 
+// The data of all ranks as one object on the first rank. Ranks without data take part with nullptr.
 vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, const Ranks& ranks)
 {
   if (kind != GatheredKind::Density)
@@ -113,6 +118,8 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
     return this->Blocks;
   }
   *this = GatheredBlocks();
+  // Gathered data sets stay until a block of some rank changes, so that their own times identify
+  // them.
   for (const DataPart& part : gatherDataParts(partsOf(own), ranks, Receivers::All).Parts)
   {
     const auto time = static_cast<std::uint64_t>(part.Data->GetMTime());
@@ -131,6 +138,8 @@ GatheredInputs::GatheredInputs(
     const auto vector = vtkSmartPointer<vtkInformationVector>::New();
     for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
     {
+      // The information is copied, because that of the pipeline must keep this rank's own data. All
+      // other keys, such as times and whole extents, stay as they are.
       vtkInformation* input = inputs[port]->GetInformationObject(i);
       vtkNew<vtkInformation> copy;
       copy->Copy(input);

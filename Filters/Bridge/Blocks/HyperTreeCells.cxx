@@ -30,6 +30,8 @@ using Bounds = std::array<double, 6>;
 
 constexpr const char* purpose = "the cells of a hyper tree grid";
 
+// This many leaves take a few milliseconds: an abort is noticed soon, and polls cost next to
+// nothing.
 constexpr std::size_t leavesBetweenPolls = std::size_t{ 1 } << 14;
 
 // Polls for an abort, once in a while.
@@ -73,6 +75,8 @@ void addLeaves(
   }
 }
 
+// The leaves of all trees, in the order of the trees. The non-oriented geometry cursor knows the
+// bounds of a node in physical coordinates, and can return to the parent.
 Leaves leavesOf(vtkHyperTreeGrid* grid, Progress* progress)
 {
   Leaves leaves;
@@ -99,6 +103,9 @@ vtkSmartPointer<vtkDoubleArray> cornersOf(const Leaves& leaves, const std::vecto
   {
     for (std::size_t corner = 0; corner < corners; ++corner, x += 3)
     {
+      // Along axes without cells all corners have the lower bound; along the others bit a of the
+      // number of a corner chooses the bound. This is the order of points of VTK_LINE, VTK_PIXEL
+      // and VTK_VOXEL.
       for (std::size_t a = 0; a < 3; ++a)
       {
         x[a] = box[2 * a];
@@ -116,6 +123,7 @@ vtkSmartPointer<vtkDoubleArray> cornersOf(const Leaves& leaves, const std::vecto
 // The axes along which the grid has cells.
 std::vector<int> axesOf(vtkHyperTreeGrid* grid)
 {
+  // GetDimensions counts the points of the coarse grid of trees, 1 along an axis without cells.
   int points[3];
   grid->GetDimensions(points);
   std::vector<int> axes;
@@ -146,6 +154,8 @@ void copyValues(vtkHyperTreeGrid* grid, const Leaves& leaves, vtkCellData* to)
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = from->GetAbstractArray(i);
+    // Node numbers need not ascend, so that the tuple of every leaf is looked for. Files may be
+    // damaged.
     bool isWhole = true;
     for (const vtkIdType number : leaves.Numbers)
     {
@@ -161,6 +171,8 @@ void copyValues(vtkHyperTreeGrid* grid, const Leaves& leaves, vtkCellData* to)
     values->SetNumberOfTuples(count);
     array->GetTuples(numbers, values);
     const int index = to->AddArray(values);
+    // The active scalars are the density if no array is chosen, so that attributes stay active. The
+    // ghost array is copied as any other: duplicates of other pieces stay marked.
     const int attribute = from->IsArrayAnAttribute(i);
     if (attribute >= 0)
     {
@@ -175,6 +187,7 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
 {
   auto cells = vtkSmartPointer<vtkUnstructuredGrid>::New();
   const std::vector<int> axes = axesOf(grid);
+  // A grid without axes has no cells. The result has no points, so that the caller skips it.
   if (axes.empty())
   {
     return cells;
@@ -182,6 +195,7 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progre
   const int corners = 1 << axes.size();
   // A cell has its box, its corners and their numbers.
   const vtkIdType bytes = sizeof(Bounds) + corners * (3 * sizeof(double) + sizeof(vtkIdType));
+  // GetNumberOfCells counts coarse nodes, too, so that this is an upper bound for the message.
   withMemory({ purpose, static_cast<double>(grid->GetNumberOfCells() * bytes) }, [&]() {
     const Leaves leaves = leavesOf(grid, progress);
     vtkNew<vtkPoints> points;

@@ -28,6 +28,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// One image among those that are joined. It keeps no reference: the blocks own their data.
 struct Part
 {
   vtkImageData* Image;
@@ -38,6 +39,9 @@ struct Part
 };
 
 // For a density on cells.
+// VTK treats a cell as blanked if one of its points is hidden (vtkStructuredData::IsCellVisible).
+// The joined image has ghost flags of one association only, so that hidden points become flags of
+// their cells here, one byte a cell; none if no point has flags.
 std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& name)
 {
   const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, name.c_str());
@@ -56,6 +60,7 @@ std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& 
   return flags;
 }
 
+// Only arrays of one type and number of components can be joined without a conversion.
 bool areOfOneKind(vtkDataArray* a, vtkDataArray* b)
 {
   return a->GetDataType() == b->GetDataType() &&
@@ -73,6 +78,7 @@ std::optional<std::vector<Part>> partsOf(
   {
     auto* image = vtkImageData::SafeDownCast(block.Data);
     first = first ? first : block.Array.Get();
+    // Blocks without the array have a place but no values: they enlarge the domain.
     if (!image || (block.Array && !areOfOneKind(block.Array, first)))
     {
       return std::nullopt;
@@ -82,6 +88,7 @@ std::optional<std::vector<Part>> partsOf(
     {
       lattice = grid;
     }
+    // Origins that differ become extents, as if all images were pieces of one vtkImageData.
     const std::optional<Extent> place = extentIn(lattice, grid);
     if (!place)
     {
@@ -103,6 +110,8 @@ std::vector<UnionBox> boxesOf(const std::vector<Part>& parts, int owner)
     const Part& part = parts[p];
     if (part.Array)
     {
+      // Duplicates of other pieces have no value of their own; hidden and refined cells have none
+      // at all.
       const unsigned char* flags = !onPoints && !part.Flags.empty()
         ? part.Flags.data()
         : ghostFlags(part.Image, owner, part.Name.c_str());
@@ -128,6 +137,8 @@ bool areSame(vtkDataArray* a, std::int64_t first, vtkDataArray* b, std::int64_t 
   return true;
 }
 
+// An array is joined only if every image with mass has it, complete and of one kind: elsewhere its
+// values would be made up.
 bool allHave(const std::vector<Part>& parts, int owner, vtkDataArray* array)
 {
   return std::all_of(parts.begin(), parts.end(), [&](const Part& part) {
@@ -144,6 +155,7 @@ vtkSmartPointer<vtkDataArray> joinArrays(const std::vector<Part>& parts, int own
   vtkDataArray* like, const TupleBox& all, const ArrayOf& arrayOf)
 {
   const std::string name = like->GetName() ? like->GetName() : "without a name";
+  // The array of the joined image, one tuple a point or cell of the box around all images.
   const MemoryPlan memory{ "the array " + name + " of images that are joined",
     static_cast<double>(all.Count()) * like->GetNumberOfComponents() * like->GetDataTypeSize() };
   const auto joined = vtkSmartPointer<vtkDataArray>::Take(like->NewInstance());
@@ -169,6 +181,7 @@ vtkSmartPointer<vtkDataArray> joinArrays(const std::vector<Part>& parts, int own
 
 vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks, bool onPoints)
 {
+  // A single image is its own union. A single block of another type gives nullptr.
   if (blocks.size() == 1)
   {
     return vtkImageData::SafeDownCast(blocks.front().Data);
@@ -179,6 +192,8 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   {
     return nullptr;
   }
+  // The box of points of all images, in the lattice of the first one, and the number of their
+  // values.
   double values = 0.0;
   TupleBox points{};
   for (const Part& part : *parts)
@@ -196,6 +211,7 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   }
   const int ofDensity = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox all = tuplesOf(whole, ofDensity, whole);
+  // Two numbers a value of the joined image: the image that gives it, and the value's index there.
   ValueOwners owners;
   withMemory({ "the lattice of images that are joined",
                numberOfValues(grid) * (sizeof(std::int64_t) + sizeof(std::int32_t)) },
@@ -203,6 +219,8 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
       owners.Values.resize(static_cast<std::size_t>(all.Count()));
       owners.Boxes.assign(static_cast<std::size_t>(all.Count()), -1);
     });
+  // Neighbours share the points of their common face, with equal values. If values differ, or if
+  // cells overlap, the mass of the union is not clear, and the images are not joined but resampled.
   const auto mayShare = [&](std::size_t owner, std::int64_t value, std::size_t part,
                           std::int64_t other) {
     return onPoints && areSame((*parts)[owner].Array, value, (*parts)[part].Array, other);
@@ -213,6 +231,7 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   }
   auto joined = vtkSmartPointer<vtkImageData>::New();
   applyGrid(grid, joined);
+  // The arrays of the first image with mass decide which arrays the joined image gets.
   const auto first = std::find_if(
     parts->begin(), parts->end(), [](const Part& part) { return part.Array != nullptr; });
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
@@ -238,6 +257,8 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
       }
     }
   }
+  // Values without an owner are holes between the images. They are hidden, so that the density
+  // reads them as empty cells, as it reads those that the input itself hides.
   if (std::any_of(
         owners.Boxes.begin(), owners.Boxes.end(), [](std::int32_t owner) { return owner < 0; }))
   {

@@ -71,11 +71,15 @@ BlockGrid* gridAt(vtkOverlappingAMR* grids, unsigned int level, unsigned int blo
 }
 #endif
 
+// A block in messages, by its place in the hierarchy.
 std::string nameOf(unsigned int level, unsigned int block)
 {
   return "block " + std::to_string(block) + " of level " + std::to_string(level);
 }
 
+// Calls visit(level, block) for all blocks of all levels. The metadata are the same on all ranks,
+// so that the order and the number of the calls are, too, although grids of other ranks are
+// nullptr.
 template <class Visit>
 void visitBlocks(vtkOverlappingAMR* grids, const Visit& visit)
 {
@@ -104,6 +108,7 @@ void requireBoxes(vtkOverlappingAMR* grids)
   });
 }
 
+// Whether a grid of this rank has ghost flags, with which a reader may have marked refined cells.
 bool hasGhosts(vtkOverlappingAMR* grids)
 {
   bool has = false;
@@ -114,6 +119,8 @@ bool hasGhosts(vtkOverlappingAMR* grids)
   return has;
 }
 
+// The axes along which a grid description such as VTK_XY_PLANE has one layer of points: the one
+// among the eight choices of axes to which VTK gives this description.
 std::array<bool, 3> flatAxes(int description)
 {
   for (int axes = 0; axes < 8; ++axes)
@@ -128,6 +135,7 @@ std::array<bool, 3> flatAxes(int description)
   return { false, false, false };
 }
 
+// Numbers along the axes in messages, "4 x 4 x 1".
 template <class Counts>
 std::string textOf(const Counts& counts)
 {
@@ -138,6 +146,9 @@ std::string textOf(const Counts& counts)
 // How many cells of a finer level are along one of a level, by the spacings.
 int refinementOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int finer)
 {
+  // Files may have spacings in single precision or with few digits. A thousandth is far above such
+  // rounding and far below the step to the next whole ratio. `most` keeps the conversion to int
+  // valid.
   constexpr double most = 1e6;
   constexpr double tolerance = 1e-3;
   std::array<double, 3> coarse;
@@ -153,6 +164,8 @@ int refinementOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int fine
       continue;
     }
     const double ratio = coarse[a] / fine[a];
+    // The first axis with cells gives the ratio, a whole number of at least 1; all others must have
+    // it.
     common = common == 0.0 ? std::round(ratio) : common;
     if (!(coarse[a] > 0.0 && ratio < most && common >= 1.0 &&
           std::abs(ratio - common) < tolerance * common))
@@ -167,6 +180,8 @@ int refinementOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int fine
 }
 
 // Files and programs give flat boxes a cell across the plane, or none.
+// Flat axes get the cells [0, 1), so that boxes of both kinds match. The others are in the index
+// space of their level, whose cell 0 begins at the origin of the hierarchy.
 LatticePart<3> cellsOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
 {
   std::array<int, 3> low;
@@ -202,6 +217,7 @@ void requireCellsOfBox(BlockGrid* grid, const LatticePart<3>& box, int descripti
   }
 }
 
+// The blocks of a level that have a grid on some rank; both vectors have one entry for each.
 struct Level
 {
   std::vector<LatticePart<3>> Parts; // the cells of each block
@@ -218,6 +234,8 @@ std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks& 
       present.push_back(gridAt(grids, level, i) ? 1 : 0);
     });
   }
+  // Boxes without a grid on any rank cover nothing: readers leave out grids of levels that they do
+  // not load. Ranks without the hierarchy give no flags.
   for (const Bytes& bytes : ranks.Gather(toBytes(present)))
   {
     const auto there = fromBytes<unsigned char>(bytes);
@@ -274,6 +292,7 @@ void mark(BlockGrid* grid, const LatticePart<3>& own, const LatticePart<3>& cove
   {
     for (std::int64_t y = covered.Low[1]; y < covered.End(1); ++y)
     {
+      // Cells of a grid are numbered with axis 0 fastest, as those of the box.
       unsigned char* row = marks->GetPointer(own.NumberOf({ covered.Low[0], y, z }));
       for (std::int64_t x = 0; x < covered.Cells[0]; ++x)
       {
@@ -283,6 +302,9 @@ void mark(BlockGrid* grid, const LatticePart<3>& own, const LatticePart<3>& cove
   }
 }
 
+// The flags of this rank's grids that finer grids cover in part. Each level is compared with the
+// next finer one that has grids: the levels beyond cover no more, as grids lie within those of
+// coarser levels.
 Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& present)
 {
   visitBlocks(grids, [&](unsigned int level, unsigned int i) {
@@ -292,6 +314,7 @@ Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& pr
     }
   });
   Flags flags;
+  // The flags of presence of one level after the other, in step with the loop.
   const unsigned char* ofLevel = present.data();
   unsigned int number = 0;
   Level coarse;
@@ -325,6 +348,7 @@ Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& pr
 
 vtkSmartPointer<vtkOverlappingAMR> markRefinedCells(vtkOverlappingAMR* grids, const Ranks& ranks)
 {
+  // First the collective part, before anything that may fail on this rank alone.
   const std::vector<unsigned char> present = presentBlocks(grids, ranks);
   if (!grids)
   {
@@ -349,6 +373,8 @@ vtkSmartPointer<vtkOverlappingAMR> markRefinedCells(vtkOverlappingAMR* grids, co
   marked->CopyStructure(grids);
   visitBlocks(grids, [&](unsigned int level, unsigned int i) {
     BlockGrid* grid = gridAt(grids, level, i);
+    // Grids that nothing covers are shared as they are; the others get a shallow copy with new
+    // flags.
     const auto found = flags.find(grid);
     if (found == flags.end())
     {
