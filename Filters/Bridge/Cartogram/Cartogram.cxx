@@ -56,6 +56,9 @@ void divideEdge(vtkPointData* data, vtkIdType point, const DividingPoint& added)
   }
 }
 
+// Writes each line of the graticule as a polyline. No two lines share a point, so that the ids are
+// 0 to count - 1, and line i has the points from offset i up to offset i + 1. The arrays go to the
+// output.
 void writeGraticule(const MapOverlays& overlays, vtkPolyData* output)
 {
   const std::vector<std::size_t>& ends = overlays.LineEnds();
@@ -104,6 +107,7 @@ public:
     {
       this->Warnings.push_back(this->Cells.OpenLines);
     }
+    // The plane of the map is that of its closed rings alone: open lines bound no area.
     this->Frame = planeOfRegions(this->Places, [this](const auto& visit) {
       this->VisitRings([&](std::int32_t region, const std::vector<std::int64_t>& ring) {
         region < 0 ? void() : visit(ring);
@@ -111,9 +115,12 @@ public:
     });
     progress.Check();
     this->MakeMap(stages["holes"]);
+    // A region without mass would shrink to nothing. Masses are raised to a least share for the
+    // flow, while MassPerArea shows those of the input.
     this->MassesBefore = this->Cells.Masses;
     this->Enlarged = completeMasses(this->Cells.Masses, this->Worker.MinimumShare, this->Before,
       this->Cells.Names, this->Warnings);
+    // The flow is defined in a box. The sea in its margin gives way where regions move outwards.
     this->Box = boxAround(this->Map, this->Worker.Options);
     if (!this->Worker.IsInDegrees && looksLikeDegrees(this->Places))
     {
@@ -127,6 +134,8 @@ public:
       place = this->Box.ToIndex(place);
     }
     progress.Check();
+    // Graticule and overlay are points in the same index space, which all passes move with those of
+    // the map.
     const MapPlace place{ this->Projection, *this->Frame, this->Box, this->Worker.Blend };
     MapOverlays overlays(place, this->Map);
     addOverlay(this->Outputs.Overlay, overlays, stages["overlay"]);
@@ -134,6 +143,8 @@ public:
     this->RequireMemory();
     this->Result = runCartogram(this->Map, this->Cells.Masses, this->Box, this->Worker.Options,
       overlays.Points(), start, stages["cartogram"]);
+    // If there was no raster of the unmoved map yet, `start` has the new one. It is kept even if
+    // outlines turn out to cross, as it depends on the shapes alone.
     this->Cache.Start = start;
     if (!this->Result.Crossing.empty())
     {
@@ -152,6 +163,9 @@ public:
 private:
   static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
+  // Reads the places of all points, 3 coordinates each. Degrees of longitude and latitude are
+  // projected first, by Lambert's cylindrical equal-area projection: areas in degrees are not those
+  // on the earth.
   void ReadPoints(Progress& progress)
   {
     vtkPoints* points = this->Cells.Data->GetPoints();
@@ -169,6 +183,7 @@ private:
     }
   }
 
+  // For lines and polygons; polygons always are regions.
   bool IsOpen(vtkIdType cell) const { return this->Cells.Regions[Index(cell)] < 0; }
 
   // visit(cell, ids, count) of lines and polygons; the ids have the first point of a closed line at
@@ -178,6 +193,7 @@ private:
   {
     vtkPolyData* data = this->Cells.Data;
     vtkNew<vtkIdList> ids;
+    // A vtkPolyData numbers its cells by kinds, vertices first, then lines and polygons.
     vtkIdType cell = data->GetNumberOfVerts();
     for (vtkCellArray* cells : { data->GetLines(), data->GetPolys() })
     {
@@ -201,6 +217,9 @@ private:
     });
   }
 
+  // Makes the map in its plane. Points are added in the order of the input, so that its ids are the
+  // map's numbers; what FindHoles adds where rings cross follows. Areas are measured before
+  // anything moves.
   void MakeMap(Progress& progress)
   {
     for (const Point<3>& place : this->Places)
@@ -217,6 +236,7 @@ private:
 
   void RequireMemory() const
   {
+    // Checked before the passes begin, which take most of the time.
     constexpr double bytesOfCell = 40.0; // a density and its flow
     const auto side = static_cast<double>(this->Box.Side);
     const std::string text = std::to_string(this->Box.Side);
@@ -238,6 +258,7 @@ private:
     }
     for (const std::int32_t region : this->Cells.Regions)
     {
+      // Open lines, which have the region -1, count as 0.
       content.AddNumber(static_cast<std::uint64_t>(region + 1));
     }
     content.AddNumber(static_cast<std::uint64_t>(this->Worker.Options.Resolution));
@@ -261,12 +282,17 @@ private:
     vtkPolyData* output = this->Outputs.Regions;
     const auto points = static_cast<vtkIdType>(this->Map.Points().size());
     const auto moved = newArray<vtkDoubleArray>("Points", 3, points);
+    // Arrays of points have room for the dividing points, whose values are interpolated in place.
     output->GetPointData()->InterpolateAllocate(input->GetPointData(), points);
+    // The places of all points before the move, 3 coordinates each, those that divide edges at the
+    // end.
     std::vector<Point<3>> before = this->Places;
     const auto old = static_cast<vtkIdType>(before.size());
     output->GetPointData()->CopyData(input->GetPointData(), 0, old, 0);
     constexpr std::int64_t work = 8; // units, of the arrays of a point
     progress.Expect(work * (points - old) + points);
+    // The points at crossings come first and those of the passes after them, as the map numbers
+    // them.
     this->Added.insert(this->Added.end(), this->Result.Added.begin(), this->Result.Added.end());
     for (std::size_t i = 0; i < this->Added.size(); ++i)
     {
@@ -285,6 +311,8 @@ private:
     for (vtkIdType i = 0; i < points; ++i)
     {
       progress.Add(1);
+      // A point moves along the plane by the part Blend of its way and keeps its distance from the
+      // plane.
       const Point<3> place = this->Worker.Blend > 0.0
         ? where.Blended(this->Result.Before[Index(i)], this->Map.Points()[Index(i)],
             this->Frame->Distance(before[Index(i)]))
@@ -300,6 +328,8 @@ private:
     addFieldValue(output, "EnlargedRegions", this->Enlarged);
   }
 
+  // The largest relative error of a region's area in each pass: the field data show the
+  // convergence.
   std::vector<double> LargestErrors() const
   {
     std::vector<double> errors;
@@ -318,6 +348,7 @@ private:
     output->SetVerts(input->GetVerts());
     vtkNew<vtkCellArray> lines;
     vtkNew<vtkCellArray> polygons;
+    // A ring has a corner for each edge, and a closed line its first point once more.
     reserveCells(lines, input->GetNumberOfLines(), this->Map.Edges() + input->GetNumberOfLines());
     reserveCells(polygons, input->GetNumberOfPolys(), this->Map.Edges());
     std::int64_t ring = 0;
@@ -345,6 +376,8 @@ private:
     output->SetPolys(polygons);
     output->GetCellData()->PassData(input->GetCellData());
     const double total = std::accumulate(this->Cells.Masses.begin(), this->Cells.Masses.end(), 0.0);
+    // The area of all regions after the move: Growth differs from 1 if the sea has another density
+    // than their mean, because they then grow into it or give way.
     const double land = this->Land * this->Result.Growth;
     vtkNew<vtkDoubleArray> errors;
     vtkNew<vtkDoubleArray> targets;
@@ -393,6 +426,7 @@ std::vector<std::string> CartogramWorker::Run(const std::vector<DensityBlock>& b
   bool isComposite, MapCache& cache, Progress& progress, const CartogramOutputs& outputs) const
 {
   Stages stages(progress, { { "regions", 2 }, { "cartogram", 98 } });
+  // The job has the state of this run alone; only the cache outlives it.
   RegionCells cells = readRegions(blocks, isComposite, this->Arrays, stages["regions"]);
   return CartogramJob(*this, std::move(cells), cache, outputs).Run(stages["cartogram"]);
 }

@@ -31,10 +31,14 @@ namespace
 {
 
 // Cell arrays, while blocks become one.
+// vtkAppendPolyData orders cells by kind and block. Numbers that travel as cell data tell where
+// each cell comes from; afterwards the arrays are removed.
 constexpr const char* blockNumbers = "vtkCartogramBlock";
 constexpr const char* cellNumbers = "vtkCartogramCell";
 
 // Where vtkCells of a type stand in a vtkPolyData: 0 vertices, 1 lines, 2 polygons; -1 nowhere.
+// Other types, such as volumes and Lagrange cells, have no place there. An empty cell counts as a
+// vertex: both are no region.
 int kindOf(int type)
 {
   switch (type)
@@ -71,6 +75,7 @@ void makeOutline(int type, vtkIdList* ids)
   const auto add = [&](vtkIdType i) { outline.push_back(ids->GetId(i)); };
   if (type == VTK_TRIANGLE_STRIP || type == VTK_PIXEL) // two lines of points that take turns
   {
+    // The outline runs up one line of points, those of odd numbers, and down the other one.
     for (vtkIdType i = 1; i < count; i += 2)
     {
       add(i);
@@ -82,6 +87,8 @@ void makeOutline(int type, vtkIdList* ids)
   }
   else
   {
+    // A corner and the node of the edge behind it take turns. Nodes within the face are left out,
+    // and edges become two straight segments.
     const bool isTriangle = type == VTK_QUADRATIC_TRIANGLE || type == VTK_BIQUADRATIC_TRIANGLE;
     const vtkIdType corners = isTriangle ? 3 : type == VTK_QUADRATIC_POLYGON ? count / 2 : 4;
     for (vtkIdType i = 0; i < corners; ++i)
@@ -94,6 +101,7 @@ void makeOutline(int type, vtkIdList* ids)
   std::copy(outline.begin(), outline.end(), ids->GetPointer(0));
 }
 
+// Whether the points of a two-dimensional cell are its outline as they are.
 bool isOutline(int type)
 {
   return type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_POLYGON;
@@ -102,6 +110,8 @@ bool isOutline(int type)
 // Strips behind the polygons, as their cell data are.
 void makePolygonsOfStrips(vtkPolyData* data)
 {
+  // The polygons are copied, as the input shares them. Each strip becomes one polygon, so that
+  // neither the number nor the order of the cells changes.
   vtkNew<vtkCellArray> polygons;
   polygons->DeepCopy(data->GetPolys());
   vtkNew<vtkIdList> ids;
@@ -120,6 +130,8 @@ void makePolygonsOfStrips(vtkPolyData* data)
 vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructuredGrid* grid,
   std::vector<vtkIdType>& numbers, Progress& progress)
 {
+  // The three kinds in the order in which a vtkPolyData numbers them, and the ids that the cells of
+  // each kind have in the grid.
   constexpr vtkIdType betweenPolls = vtkIdType{ 1 } << 16;
   std::array<vtkNew<vtkCellArray>, 3> cells;
   std::array<std::vector<vtkIdType>, 3> numbersOfKinds;
@@ -134,6 +146,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructur
     const int kind = kindOf(type);
     if (kind < 0)
     {
+      // VTK makes the cell only for the message, which names its class.
       vtkCell* const made = grid->GetCell(cell);
       fail("Cell ", cell, " of the ", block.Name, " is a ", made->GetClassName(),
         "; regions must be polygons or closed lines, ",
@@ -150,6 +163,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructur
     numbersOfKinds[static_cast<std::size_t>(kind)].push_back(cell);
   }
   const auto data = vtkSmartPointer<vtkPolyData>::New();
+  // Points and their arrays are shared. Cell arrays are copied in the new order of the cells.
   data->SetPoints(grid->GetPoints());
   data->GetPointData()->PassData(grid->GetPointData());
   data->SetVerts(cells[0]);
@@ -171,6 +185,8 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const DensityBlock& block, vtkUnstructur
 vtkSmartPointer<vtkPolyData> polyDataOf(
   const DensityBlock& block, std::vector<vtkIdType>& numbers, Progress& progress)
 {
+  // The block as a vtkPolyData of its own, which the caller may change: it shares arrays with the
+  // input, but neither cells that are converted nor the list of its arrays.
   auto* const grid = vtkUnstructuredGrid::SafeDownCast(block.Data);
   auto* const data = vtkPolyData::SafeDownCast(block.Data);
   if (!grid && !data)
@@ -178,6 +194,8 @@ vtkSmartPointer<vtkPolyData> polyDataOf(
     fail("The ", block.Name, " is a ", block.Data->GetClassName(),
       "; regions must be polygons or closed lines, as Extract Surface makes of it");
   }
+  // VTK reads without checks what follows: ids of points beyond the last one, and arrays with too
+  // few tuples, must not get there.
   requireReadableCells(block.Data, block.Name);
   requireTuples(block.Data, block.Name);
   if (grid)
@@ -195,6 +213,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(
   return copy;
 }
 
+// Block number i with the two arrays that say so for each cell.
 vtkSmartPointer<vtkPolyData> numberedBlock(
   const DensityBlock& block, std::size_t i, Progress& progress)
 {
@@ -219,6 +238,8 @@ vtkSmartPointer<vtkPolyData> numberedBlock(
 // Group by group, and these again, as vtkAppendPolyData cannot be aborted.
 vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks, Progress& progress)
 {
+  // An append of 64 blocks is short, and with groups of this size a map of a million blocks, as of
+  // a composite with one for each region, is copied only four times.
   constexpr std::size_t most = 64;
   const auto count = static_cast<std::int64_t>(blocks.size());
   Stages stages(progress, { { "blocks", 2 }, { "append", 1 } });
@@ -228,6 +249,7 @@ vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks,
   {
     parts.push_back(numberedBlock(blocks[i], i, each[static_cast<std::int64_t>(i)]));
   }
+  // An append keeps only arrays that all parts have with one type, so types are made equal before.
   unifyTypes(parts);
   Progress& appended = stages["append"].Expect(count);
   do
@@ -236,6 +258,8 @@ vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks,
     for (std::size_t first = 0; first < parts.size(); first += most)
     {
       vtkNew<vtkAppendPolyData> append;
+      // Single precision would round a map's coordinates in metres to whole metres far from the
+      // origin.
       append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
       for (std::size_t i = first; i < std::min(parts.size(), first + most); ++i)
       {
@@ -254,6 +278,7 @@ vtkSmartPointer<vtkPolyData> joinedData(const std::vector<DensityBlock>& blocks,
 
 RegionBlocks joinRegionBlocks(const std::vector<DensityBlock>& blocks, Progress& progress)
 {
+  // There is at least one block: the filter reports an error where the input has none.
   RegionBlocks joined;
   joined.Data = joinedData(blocks, progress);
   vtkCellData* cells = joined.Data->GetCellData();

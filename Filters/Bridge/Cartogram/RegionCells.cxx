@@ -31,6 +31,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Whether an array's name says that it has names, such as NAME, name_en or CountryName.
 bool isName(const char* name)
 {
   std::string lower = name ? name : "";
@@ -68,6 +69,8 @@ public:
     , Arrays(arrays)
     , Work(progress, { { "blocks", 3 }, { "regions", 1 } })
   {
+    // All blocks become one vtkPolyData, whose cells have one numbering. The arrays below belong to
+    // it.
     this->Joined = joinRegionBlocks(blocks, this->Work["blocks"]);
     this->Found.Data = this->Joined.Data;
     this->ByBlock = isComposite && blocks.size() > 1;
@@ -78,6 +81,7 @@ public:
 
   RegionCells Read()
   {
+    // The order decides which error is reported: an input without regions needs no array of masses.
     this->FindOpenLines();
     Progress& progress = this->Work["regions"];
     progress.Check();
@@ -91,6 +95,8 @@ private:
   void FindOpenLines()
   {
     vtkPolyData* data = this->Found.Data;
+    // Lines follow the vertices in the numbering of a vtkPolyData; one flag a cell says which are
+    // open.
     const vtkIdType vertices = data->GetNumberOfVerts();
     vtkNew<vtkIdList> ids;
     vtkCellArray* lines = data->GetLines();
@@ -109,6 +115,7 @@ private:
     const std::int64_t all = lines->GetNumberOfCells();
     const std::string text = std::to_string(open) + " of " + std::to_string(all) +
       " lines of the input do not close (the first is " + first + ")";
+    // Without any region this is an error, else a warning: maps often have rivers, or graticules.
     if (open == all && data->GetNumberOfPolys() == 0)
     {
       fail(all == 0 ? "The input has no regions; they must be polygons or closed lines"
@@ -131,6 +138,8 @@ private:
   // The first block that lacks a cell array, if any.
   std::string OfInput(const std::string& array) const
   {
+    // Joining leaves out arrays that a block lacks, so messages name such a block. Blocks without
+    // cells lack nothing.
     const auto lacking =
       std::find_if(this->Blocks.begin(), this->Blocks.end(), [&](const DensityBlock& block) {
         return block.Data->GetNumberOfCells() > 0 &&
@@ -141,6 +150,8 @@ private:
         (lacking == this->Blocks.end() ? "" : " (the " + lacking->Name + " has none)");
   }
 
+  // Finds the array of masses, with one value a cell of the joined data: the chosen one, or the
+  // default. ParaView's list of arrays says "None" where none is chosen.
   void FindMass()
   {
     vtkCellData* cells = this->Found.Data->GetCellData();
@@ -164,6 +175,7 @@ private:
     {
       this->Mass = this->DefaultMass(cells);
     }
+    // How messages call the array from here on.
     const char* name = this->Mass->GetName();
     this->MassTitle = name ? "'" + std::string(name) + "'" : "the scalars, which have no name,";
     if (this->Mass->GetNumberOfComponents() != 1)
@@ -183,6 +195,7 @@ private:
     {
       return cells->GetScalars();
     }
+    // With two candidates a guess could be wrong without anybody noticing, so there must be one.
     vtkDataArray* only = nullptr;
     int count = 0;
     for (int i = 0; i < cells->GetNumberOfArrays(); ++i)
@@ -203,6 +216,9 @@ private:
     return only;
   }
 
+  // Numbers the regions from 0, in the order of their first cells, and gives each cell its number.
+  // The mass of a region is the value that all of its cells have, not their sum: files repeat the
+  // attributes of a country for each of its islands. RegionList throws Failure where values differ.
   void FindRegions(Progress& progress)
   {
     if (this->HasKey() && !this->Key)
@@ -213,6 +229,7 @@ private:
     RegionList regions(this->MassTitle);
     vtkPolyData* data = this->Found.Data;
     const vtkIdType count = data->GetNumberOfCells();
+    // Vertices and open lines keep -1.
     this->Found.Regions.assign(static_cast<std::size_t>(count), -1);
     constexpr std::int64_t work = 8; // units, of a value
     std::string key;
@@ -225,6 +242,8 @@ private:
         continue;
       }
       const std::size_t block = this->Joined.Blocks[static_cast<std::size_t>(cell)];
+      // Two cells belong to one region exactly if their keys are equal: the bytes of the tuple of
+      // the region array, else the number of the block or of the cell.
       key.clear();
       if (this->Key)
       {
@@ -240,18 +259,22 @@ private:
                                               : this->NameOf(cell);
         });
     }
+    // The sum of the masses is a divisor of all shares.
     regions.RequireMass();
     this->Found.Names = std::move(regions.Names);
     this->Found.Masses = std::move(regions.Masses);
   }
 
+  // Whether a region array is chosen; "None" as for masses.
   bool HasKey() const { return !this->Arrays.Region.empty() && this->Arrays.Region != "None"; }
 
+  // What messages call the region of a cell: its name, if there are names, or else the cell.
   std::string NameOf(vtkIdType cell) const
   {
     return this->Name ? "'" + tupleText(this->Name, cell) + "'" : "of " + this->TitleOf(cell);
   }
 
+  // The first array of texts that is called a name; nullptr if there is none.
   static vtkAbstractArray* FindNames(vtkCellData* cells)
   {
     for (int i = 0; i < cells->GetNumberOfArrays(); ++i)
