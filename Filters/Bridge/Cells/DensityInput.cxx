@@ -32,6 +32,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Whether a data object, which may be nullptr, holds anything. Composite data sets count those of
+// their blocks.
 bool hasElements(vtkDataObject* data)
 {
   return data &&
@@ -50,6 +52,7 @@ std::string describeArrays(vtkDataSet* data)
 vtkSmartPointer<vtkDataArray> numbersIn(
   vtkAbstractArray* array, const DensityChoice& choice, vtkDataSet* data, const std::string& what)
 {
+  // An empty text is a missing value if NaN marks missing values, else no number.
   const TextToNumbers numbers = parseNumbers(array, choice.Rules.Missing.AreNaN);
   if (array && !numbers.Array)
   {
@@ -60,6 +63,9 @@ vtkSmartPointer<vtkDataArray> numbersIn(
   return numbers.Array;
 }
 
+// The density array of a data set, as numbers, and its association. Throws Failure if there is
+// none, with a list of the arrays to choose from: most often the name is misspelt or of another
+// association.
 vtkSmartPointer<vtkDataArray> requireArray(
   const DensityChoice& choice, vtkDataSet* data, const std::string& what, int& association)
 {
@@ -85,6 +91,8 @@ vtkSmartPointer<Data> withNumbers(Data* data, vtkDataArray* array, bool onPoints
   {
     return data;
   }
+  // The input stays as it is: a shallow copy shares its arrays, and the one of numbers takes the
+  // place of that of texts, so that all that reads the data set by names finds numbers.
   const auto made = vtkSmartPointer<Data>::Take(data->NewInstance());
   made->ShallowCopy(data);
   attributesOf(made, onPoints)->AddArray(array);
@@ -102,6 +110,8 @@ void requireName(vtkDataArray* array)
 
 constexpr const char* inputImage = "input image";
 
+// An image on a single process is the density as it is: cells, or dual cells around its points. The
+// values are not copied.
 std::unique_ptr<InputDensity> readImage(const DensityChoice& choice, vtkImageData* image)
 {
   int association = 0;
@@ -111,6 +121,7 @@ std::unique_ptr<InputDensity> readImage(const DensityChoice& choice, vtkImageDat
     withNumbers(image, array, onPoints), array, onPoints, choice.Rules);
 }
 
+// Each rank has a piece of one image, or nothing. nullptr if no rank has points.
 std::unique_ptr<InputDensity> readPieces(
   const DensityChoice& choice, vtkImageData* image, const Ranks& ranks)
 {
@@ -127,6 +138,7 @@ std::unique_ptr<InputDensity> readPieces(
     chosen = (onPoints ? "the point array " : "the cell array ") + std::string(array->GetName());
     own = withNumbers(image, array, onPoints);
   }
+  // From here on calls are collective, for ranks without points, too.
   auto pieces = std::make_unique<const ImagePieces>(own, ranks);
   if (isEmpty(pieces->Whole()))
   {
@@ -134,11 +146,14 @@ std::unique_ptr<InputDensity> readPieces(
   }
   const std::string common =
     requireSameOnRanks(ranks, chosen, "The density is ", "it must be the same array on all");
+  // Ranks without points learn association and name from the text that the others gave.
   const bool onPoints = common.rfind("the point", 0) == 0;
   const std::string name = common.substr(common.find("array ") + 6);
   return std::make_unique<PartitionedDensity>(std::move(pieces), name, onPoints, choice.Rules);
 }
 
+// Leaves such as tables carry no mass. That is an error if the input has nothing else, and a
+// warning otherwise. Counts are those of all ranks, so that all of them fail or none does.
 void reportOthers(const DensityChoice& choice, const SkippedLeaves& others, const Ranks& ranks)
 {
   const auto count = sumOverRanks(ranks, others.Count);
@@ -154,6 +169,7 @@ void reportOthers(const DensityChoice& choice, const SkippedLeaves& others, cons
   }
 }
 
+// The array that makes the density, the block in which it was found, and its association there.
 struct FoundArray
 {
   vtkSmartPointer<vtkDataArray> Array;
@@ -173,6 +189,8 @@ FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock
     return found;
   };
   std::vector<std::size_t> order; // the blocks with cells, those of the most dimensions first
+  // A mesh often comes with its surface or its edges as further blocks. The volume is what has
+  // mass, so that blocks of higher dimension are asked first.
   for (int dimension = 3; dimension > 0; --dimension)
   {
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -200,10 +218,13 @@ FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock
       }
     }
   }
+  // No block has the array: this throws the Failure of the first one, which lists its arrays.
   return findIn(order.front());
 }
 
 // That of another block, by its name or, if it has none, by how the first one was chosen.
+// Arrays of different names or associations in two blocks are different quantities, even if both
+// are active scalars. nullptr if the block has no such array.
 vtkSmartPointer<vtkDataArray> arrayLike(
   const FoundArray& found, const DensityChoice& choice, const DensityBlock& block)
 {
@@ -223,6 +244,7 @@ vtkSmartPointer<vtkDataArray> arrayLike(
 DensityBlocks chooseArrays(
   const DensityChoice& choice, const std::vector<DensityBlock>& blocks, const Ranks& ranks)
 {
+  // Damaged cells are found here, before anything reads them. Vertices have the dimension 0.
   std::vector<int> dimensions;
   for (const DensityBlock& block : blocks)
   {
@@ -235,6 +257,7 @@ DensityBlocks chooseArrays(
                   "Splat Mass makes one of points");
   }
   const FoundArray found = findArray(choice, blocks, dimensions);
+  // Blocks are matched by names here, as the blocks of another rank have other arrays in memory.
   if (ranks.AreSeveral())
   {
     requireName(found.Array);
@@ -246,6 +269,7 @@ DensityBlocks chooseArrays(
   std::string first;        // the name of the first block without the array
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
+    // Faces of a volume, for example, have no volume and thus no mass.
     if (dimensions[b] < chosen.Dimension)
     {
       continue;
@@ -254,6 +278,8 @@ DensityBlocks chooseArrays(
     block.Array = b == found.Block ? found.Array : arrayLike(found, choice, block);
     block.Data = withNumbers(block.Data.Get(), block.Array, chosen.OnPoints);
     ++all;
+    // Blocks of more dimensions lack the array, else the search would have taken theirs. They are
+    // left out as well, and the warning counts them.
     first = !block.Array && without == 0 ? block.Name : first;
     without += block.Array ? 0 : 1;
     if (dimensions[b] == chosen.Dimension)
@@ -261,6 +287,7 @@ DensityBlocks chooseArrays(
       chosen.All.push_back(block);
     }
   }
+  // Lengths are checked once it is clear which arrays are read.
   for (const DensityBlock& block : chosen.All)
   {
     if (block.Array)
@@ -282,6 +309,8 @@ DensityBlocks chooseArrays(
 // The kind of the data, the same on all ranks; empty if none has data. Collective.
 std::string kindOf(vtkDataObject* input, const Ranks& ranks)
 {
+  // On a single process, data that are no image are read even if they are empty, for the message
+  // about what they lack. On several ranks empty data mean that this rank has no part.
   const bool isImage = vtkImageData::SafeDownCast(input) != nullptr;
   const bool hasData = isImage || ranks.AreSeveral() ? hasElements(input) : input != nullptr;
   // Ranks without data take part.
@@ -317,6 +346,7 @@ std::unique_ptr<InputDensity> DensityInput::Read(
   std::unique_ptr<InputDensity> density;
   if (kind == "an image")
   {
+    // What the last run made of other data is of no use and may take much memory.
     this->Resampled = ResampledDensity();
     this->Gathered = GatheredBlocks();
     auto* image = vtkImageData::SafeDownCast(input);
@@ -345,6 +375,8 @@ std::unique_ptr<InputDensity> DensityInput::Read(
 std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
   const DensityChoice& choice, vtkDataObject* input, Progress& progress)
 {
+  // Collective: ranks without blocks take part with none, and after Gather every rank has all
+  // blocks, so that all of them resample the same density.
   SkippedLeaves others;
   const Ranks& ranks = progress.Group();
   std::vector<DensityBlock> blocks = densityBlocks(input, &others, &progress, ranks);

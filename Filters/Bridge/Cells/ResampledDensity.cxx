@@ -34,6 +34,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// The blocks that have the array. The others only enlarge the domain.
 std::vector<DensityBlock> withMass(const std::vector<DensityBlock>& blocks)
 {
   std::vector<DensityBlock> with;
@@ -42,6 +43,9 @@ std::vector<DensityBlock> withMass(const std::vector<DensityBlock>& blocks)
   return with;
 }
 
+// What the image depends on: geometries, the array of each block, the resolution and the rules.
+// Other arrays do not change a resampled density, whose particles get theirs from the current data
+// sets.
 DataIdentity contentOf(const DensityBlocks& blocks, int resolution, const DensityRules& rules)
 {
   // Images may be joined, with all their arrays.
@@ -99,9 +103,12 @@ private:
 std::unique_ptr<InputDensity> ResampledDensity::Read(
   const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
 {
+  // Three results: one image stays as it is, images that tile a lattice are joined, and all other
+  // data are resampled. Only the last one has Blocks and applies the rules to the values itself.
   DataIdentity content = contentOf(blocks, resolution, rules);
   if (!content.IsSameAs(this->Content, progress))
   {
+    // Releases the last image before memory for the next one is needed.
     *this = ResampledDensity();
     this->Image = joinImages(blocks.All, blocks.OnPoints);
     if (!this->Image)
@@ -141,10 +148,14 @@ void ResampledDensity::Resample(
   // A mesh is checked by its frame before its values are read.
   const CellSets sets = cellSetsOf(blocks.All);
   const MassCells mass = massCells(sets, blocks.Dimension, progress);
+  // Cells that a filter such as Threshold made of an image have the values of its cells: on the
+  // lattice they return to their places, without any rounding by overlaps.
   if (!mass.AreClosedLines)
   {
     this->Lattice = latticeOf(blocks.All, sets, blocks.Dimension, progress);
   }
+  // Point values vary within a cell, which only a finer grid shows: the cells of the lattice are
+  // divided for them. Other data get a grid of cubes as nearly as their box allows.
   ImageGrid grid = !this->Lattice ? CellFrame::Of(sets, mass, progress).Grid(resolution)
     : blocks.OnPoints             ? this->Lattice->DividedGrid(resolution)
                                   : this->Lattice->Grid();
@@ -152,11 +163,14 @@ void ResampledDensity::Resample(
   DensityRules taken = rules;
   taken.Component = commonComponent(read, rules.Component);
   this->Blocks = readBlocks(read, cellSetsOf(read), blocks.OnPoints, mass, rules, progress);
+  // Two counted cells in one place: overlapping data sets add up, which a copy of values cannot do.
   if (this->Lattice && !this->Lattice->HasEachOnce(this->Blocks.Cells, progress))
   {
     this->Lattice.reset();
     grid = CellFrame::Of(sets, mass, progress).Grid(resolution);
   }
+  // Polygons of any shape are filled by the even-odd rule where division into triangles would be
+  // wrong.
   if (!this->Lattice && mass.Dimension == 2)
   {
     markRegions(this->Blocks.Cells, grid, progress);
@@ -166,18 +180,23 @@ void ResampledDensity::Resample(
       (isLatticeImage ? " cells" : " cells (see DensityResolution)"),
     numberOfValues(grid) * sizeof(double) });
   this->Image = vtkSmartPointer<vtkImageData>::New();
+  // After the check of memory, as applyGrid allocates coordinates from VTK 9.3 on.
   applyGrid(grid, this->Image);
   vtkDataArray* first = read.front().Array;
   const char* name = first->GetName();
   this->How = readingBy(taken, name ? name : "", first->GetNumberOfComponents());
+  // One density a cell of the grid, in mass per length, area or volume; axis 0 fastest.
   const auto density = newArray<vtkDoubleArray>(
     name ? name : "Density", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
   const CellSize size = this->AddCells(grid, this->Blocks.Cells, progress, density->GetPointer(0));
+  // Cells that VTK cannot divide carry no mass. The warning says how much that is at most.
   this->Lost = describeLost(this->Blocks.Cells, size, grid.Dimension());
   if (rules.Empty.Cells != EmptyCells::Zero)
   {
     this->FillEmpty(grid, rules.Empty, progress, density->GetPointer(0));
   }
+  // The rules were applied to the input's values: applied to their means they would give another
+  // density.
   this->Image->GetCellData()->SetScalars(density);
   const ValuePlaces places{ {}, {}, {}, blocks.OnPoints ? "points" : "cells", 0, taken.Invert,
     taken.IsOfSeveral(), fillValuesOf(read.front().Data->GetFieldData()) };
@@ -212,11 +231,14 @@ void ResampledDensity::FillEmpty(
   {
     ground.push_back(cells.Ground());
   }
+  // The part of each cell of the grid that the counted cells cover, in [0, 1] up to rounding and
+  // more where they overlap: the mean of the density 1.
   LargeBuffer<double> covered;
   withMemory({ "what the input's cells cover", numberOfValues(grid) * sizeof(double) },
     [&]() { covered = LargeBuffer<double>(grid.NumberOfCells()); });
   this->AddCells(grid, ground, progress, covered.data());
   OccupiedCells filled;
+  // The least value of the input's cells, not of the grid's: means along borders are smaller.
   for (const SetFindings& set : this->Blocks.Findings)
   {
     filled.Least = std::min(filled.Least, set.Least);

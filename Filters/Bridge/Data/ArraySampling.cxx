@@ -34,6 +34,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Places in a range of work, which one thread takes at a time.
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 10;
 // Units of a slice of work.
 constexpr std::int64_t Units = std::int64_t{ 1 } << 14;
@@ -44,6 +45,7 @@ struct NewArray
   int Attribute;                       // the attribute type of the array, else negative
 };
 
+// VTK gives nullptr for an array without a name.
 std::string nameOf(vtkAbstractArray* array)
 {
   return array->GetName() ? array->GetName() : "";
@@ -61,6 +63,8 @@ std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPoin
     vtkAbstractArray* array = from->GetAbstractArray(i);
     const std::string name = nameOf(array);
     const int attribute = from->IsArrayAnAttribute(i);
+    // The particles' own arrays, such as SeedId, win over those of the input with the same name,
+    // and arrays of points, which come first, over those of cells.
     const bool isTaken = array->GetName() && known->HasArray(array->GetName());
     const bool isGhost = name == vtkDataSetAttributes::GhostArrayName();
     // Between the names of points there is nothing, and a cell's would be of several particles.
@@ -86,6 +90,7 @@ std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPoin
       requireTuples(own, set->GetNumberOfElements(type), owner, source.Name);
       made.From.push_back(own);
     }
+    // An array that one of the data sets lacks would have no values at the places in it.
     if (made.From.size() == source.Sets.size())
     {
       arrays.push_back(made);
@@ -94,6 +99,8 @@ std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPoin
   return arrays;
 }
 
+// An array of the same class, with all that views show of it: names of components, information such
+// as units, and the lookup table. Values are not initialised. Throws Failure if memory is short.
 vtkSmartPointer<vtkAbstractArray> makeLike(vtkAbstractArray* array, std::int64_t tuples)
 {
   const std::string purpose =
@@ -130,6 +137,8 @@ Value noValue()
   return hasNaN ? std::numeric_limits<Value>::quiet_NaN() : Value(0);
 }
 
+// Interpolated values go back to the type of the array: integers are rounded to the nearest one,
+// and clamped to their range.
 template <class Value>
 Value rounded(double number)
 {
@@ -154,6 +163,8 @@ struct MakeSampler
   template <class Array>
   void operator()(Array*, const NewArray& array, vtkDataArray* to, bool ofCells)
   {
+    // The dispatch gives the class of the first data set's array. Tuples of one class are read
+    // without virtual calls.
     auto* made = vtkArrayDownCast<Array>(to);
     std::vector<decltype(vtk::DataArrayTupleRange(made))> given;
     for (vtkAbstractArray* from : array.From)
@@ -165,6 +176,8 @@ struct MakeSampler
       }
       given.push_back(vtk::DataArrayTupleRange(own));
     }
+    // The ranges hold pointers to the arrays, which sources and output keep alive until all is
+    // sampled.
     this->Made = [=](const ProbeLocation* places, std::int64_t first, std::int64_t count) {
       auto tuples = vtk::DataArrayTupleRange(made, first, first + count);
       for (const auto tuple : tuples)
@@ -176,6 +189,8 @@ struct MakeSampler
 
 private:
   template <class Range, class Tuple>
+  // The tuple at one place: that of its cell, or the mean of those of its points with the
+  // weights of the place, sum_k w_k v_k, in double precision. NaN or 0 outside of all cells.
   static void sample(
     const std::vector<Range>& given, bool ofCells, const ProbeLocation& place, Tuple tuple)
   {
@@ -208,6 +223,7 @@ private:
 void sampleTuples(const NewArray& array, vtkAbstractArray* to, const ProbeLocations& places,
   bool ofCells, Progress& progress)
 {
+  // The tuples of such arrays may share bytes or allocate, so that one thread writes them in order.
   vtkNew<vtkIdList> points;
   progress.ForEachInOrder(
     places.Count(), Grain,
@@ -216,6 +232,7 @@ void sampleTuples(const NewArray& array, vtkAbstractArray* to, const ProbeLocati
       vtkAbstractArray* from = array.From[static_cast<std::size_t>(place.Set)];
       if (place.Cell < 0)
       {
+        // The interpolation of no points gives an empty text, or 0.
         points->Reset();
         to->InterpolateTuple(static_cast<vtkIdType>(i), points, from, nullptr);
         return;
@@ -233,6 +250,7 @@ void sampleTuples(const NewArray& array, vtkAbstractArray* to, const ProbeLocati
 }
 
 // The arrays of an output that are to be sampled.
+// Numeric arrays have samplers, which any thread calls for a block of places.
 struct Sampling
 {
   std::vector<ArraySampler> Blocks;
@@ -255,10 +273,13 @@ void prepare(const std::vector<NewArray>& arrays, std::int64_t places, bool ofCe
     auto* from = vtkDataArray::SafeDownCast(array.From.front());
     auto* to = vtkDataArray::SafeDownCast(made);
     MakeSampler make;
+    // Eight bits share a byte, which two threads must not write at once.
     if (from && from->GetDataType() != VTK_BIT)
     {
       vtkArrayDispatch::Dispatch::Execute(from, make, array, to, ofCells);
     }
+    // Arrays of classes that the dispatch does not know, or of several classes, are sampled by
+    // VTK's virtual methods.
     if (make.Made)
     {
       sampling.Blocks.push_back(std::move(make.Made));
@@ -268,6 +289,7 @@ void prepare(const std::vector<NewArray>& arrays, std::int64_t places, bool ofCe
       sampling.Others.push_back({ array, made, ofCells });
     }
     const int index = output->AddArray(made);
+    // Attributes that the output has already, such as the vectors Displacement, stay active.
     if (keepActive && array.Attribute >= 0 && !output->GetAbstractAttribute(array.Attribute))
     {
       output->SetActiveAttribute(index, array.Attribute);
@@ -278,6 +300,8 @@ void prepare(const std::vector<NewArray>& arrays, std::int64_t places, bool ofCe
 // Each place is found once for all arrays.
 void sampleBlocks(const Sampling& sampling, const ProbeLocations& places, Progress& progress)
 {
+  // The locations of a block stay in the first-level cache while all arrays read them: 128 of about
+  // 150 bytes.
   constexpr std::int64_t block = 128;
   progress.For(
     places.Count(), Grain,
@@ -311,6 +335,8 @@ void sampleArrays(
 {
   Sampling sampling;
   const std::int64_t count = places.Count();
+  // Arrays of points first: the second call leaves out names that the first one has added. All
+  // arrays are allocated before any is sampled, so that a lack of memory is reported at once.
   prepare(newArrays(source, false, output), count, false, source.KeepActive, sampling, output);
   prepare(newArrays(source, true, output), count, true, false, sampling, output);
   Parts parts(progress, static_cast<std::int64_t>(sampling.Others.size() + 1));

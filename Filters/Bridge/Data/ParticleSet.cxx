@@ -41,6 +41,8 @@ ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpos
   const double written = paths ? each * (5 * real + 2 * id) + id : 10 * real + 3 * id;
   const double scratch =
     real * D * ((separateSeeds ? 1.0 : 0.0) + (separatePositions ? each : 0.0));
+  // `count` is a double, as it may be beyond any integer before this check. All memory together is
+  // checked before any of it is allocated.
   requireMemory({ purpose, count * (written + scratch) });
 
   this->NumberOfParticles = static_cast<std::int64_t>(count);
@@ -65,6 +67,7 @@ ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpos
 template <int D>
 PointSpan<D> ParticleSet<D>::Seeds()
 {
+  // Without a buffer the index coordinates are in the memory of the output array, until Write.
   double* own = this->SeedBuffer.data();
   return { own ? own : this->SeedPosition->GetPointer(0), this->NumberOfParticles };
 }
@@ -90,6 +93,7 @@ template <class WriteParticle>
 double ParticleSet<D>::WriteEach(
   const LengthScale& scale, Progress& progress, const WriteParticle& write) const
 {
+  // About 4096 points a range, however many of them a particle has.
   const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
   const auto total = sumExactly<ExactSum>(progress, this->NumberOfParticles, chunk,
     [&write](std::int64_t first, std::int64_t last, ExactSum& sum) {
@@ -133,6 +137,8 @@ double ParticleSet<D>::Write(
   const std::int64_t each = this->Times;
   const std::int64_t count = this->NumberOfParticles * each;
   const bool arePaths = each > 1;
+  // Arrays of points, one tuple for each of the `each` positions of each particle, particle by
+  // particle.
   const auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
   const auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
   const auto further = arePaths ? newArray<vtkDoubleArray>("Time", 1, count)
@@ -145,6 +151,7 @@ double ParticleSet<D>::Write(
   double* physicalSeeds = arePaths ? nullptr : this->SeedPosition->GetPointer(0);
   const double* seeds = this->Seeds().data();
   const double* positions = this->Positions().data();
+  // All particles of all ranks carry equal parts of the mass.
   const double share = totalMass / static_cast<double>(this->AllParticles);
   const LengthScale scale(this->Geometry);
 
@@ -152,6 +159,8 @@ double ParticleSet<D>::Write(
   const double cost = this->WriteEach(scale, stages["points"], [&](std::int64_t i) {
     double index[D];
     std::copy_n(seeds + i * D, D, index); // in 3D the same memory as the physical seed
+    // The seed is converted first, as in 3D this overwrites its index coordinates; `index` keeps
+    // them for the comparison with the positions, which are converted in place, too.
     double ofPath[3];
     double* seed = arePaths ? ofPath : physicalSeeds + i * 3;
     this->ToPhysicalSeed(i, index, seed);
@@ -165,6 +174,8 @@ double ParticleSet<D>::Write(
         time[p] = times[static_cast<std::size_t>(p - i * each)];
       }
     }
+    // The last position is the end of the way: the displacement and the cost compare it with the
+    // seed.
     const double* x = points + ((i + 1) * each - 1) * 3;
     for (int r = 0; r < 3 && !arePaths; ++r)
     {
@@ -173,6 +184,7 @@ double ParticleSet<D>::Write(
     return scale.SquaredDistanceInUnits(x, seed);
   });
 
+  // The output takes over the arrays; nothing is copied.
   setParticles(output, std::exchange(this->Points, nullptr), each, stages["cells"]);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);

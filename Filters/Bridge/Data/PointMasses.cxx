@@ -34,6 +34,7 @@ struct RangeOfMasses
   NotFiniteValues NotFinite;
 };
 
+// Ranges are joined from the first to the last one, so that sums round in one order.
 RangeOfMasses joinRanges(RangeOfMasses all, const RangeOfMasses& range)
 {
   all.Sum += range.Sum;
@@ -49,6 +50,8 @@ struct ReadMasses
   double* Masses;
   RangeOfMasses Found;
 
+  // For each type and layout of arrays that VTK dispatches, and for vtkDataArray, whose values come
+  // by virtual calls. Threads write disjoint ranges of Masses.
   template <class ArrayT>
   void operator()(ArrayT* array, Progress& progress)
   {
@@ -58,6 +61,8 @@ struct ReadMasses
       for (const auto given : vtk::DataArrayValueRange<1>(array, first, last))
       {
         const auto value = static_cast<double>(given);
+        // A ghost point counts on the rank that owns it. Its value may be anything, also not a
+        // number.
         const bool isGhost = this->Ghosts && (this->Ghosts[i] & ghostPoint) != 0;
         if (!isGhost && !std::isfinite(value))
         {
@@ -75,6 +80,7 @@ struct ReadMasses
   }
 };
 
+// The array as numbers, with one value a point. Throws Failure, which `text` begins, if it is not.
 vtkSmartPointer<vtkDataArray> requireMasses(
   vtkPointSet* points, vtkAbstractArray* found, const std::string& text)
 {
@@ -92,6 +98,8 @@ vtkSmartPointer<vtkDataArray> requireMasses(
 
 vtkSmartPointer<vtkDataArray> findMasses(vtkPointSet* points, int attribute)
 {
+  // ParaView and programs may choose "the active scalars" without a name. Attributes may be texts,
+  // such as pedigree ids.
   vtkAbstractArray* found = points->GetPointData()->GetAbstractAttribute(attribute);
   if (!found)
   {
@@ -107,6 +115,7 @@ vtkSmartPointer<vtkDataArray> findMasses(vtkPointSet* points, const std::string&
 {
   vtkAbstractArray* found =
     name.empty() ? nullptr : points->GetPointData()->GetAbstractArray(name.c_str());
+  // "None" is what ParaView's list writes for no choice, unless an array has this name.
   if (!found && (name.empty() || name == "None"))
   {
     return nullptr;
@@ -126,6 +135,7 @@ PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& pro
 {
   const vtkIdType count = points->GetNumberOfPoints();
   const unsigned char* ghosts = ghostFlags(points, vtkDataObject::POINT, "input point set");
+  // Each point has the mass 1, which needs no array. The sums are exact.
   if (!array && !ghosts)
   {
     this->Sum = static_cast<double>(count);
@@ -138,6 +148,7 @@ PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& pro
   {
     this->Masses->Fill(1.0);
   }
+  // Without an array the ones themselves are read, and those of ghosts become 0 in place.
   vtkDataArray* from = array ? array : this->Masses.Get();
   if (!vtkArrayDispatch::Dispatch::Execute(from, read, progress))
   {
@@ -151,6 +162,7 @@ PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& pro
   {
     throw Failure(title + read.Found.NotFinite.Text("value") + "; all masses must be finite");
   }
+  // Masses that are finite may still sum beyond the largest double.
   if (!std::isfinite(this->Sum))
   {
     fail(title, "sums to ", this->Sum, "; the sum must be a double");

@@ -30,6 +30,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// The beginning of messages. Cells have the numbers that the data set gives them.
 std::string cellOf(vtkIdType cell, const std::string& name)
 {
   return "Cell " + std::to_string(cell) + " of the " + name;
@@ -49,6 +50,8 @@ void requireIds(vtkCellArray* cells, std::int64_t points, vtkIdType first, const
   {
     return;
   }
+  // Offsets are cells + 1 places in the connectivity, of 32 or 64 bits: cell i has the ids from
+  // offset i up to offset i + 1. They come first, as the second check looks for cells by them.
   const std::int64_t ids = cells->GetConnectivityArray()->GetNumberOfValues();
   visitIntegers(cells->GetOffsetsArray(), [&](const auto& offsets) {
     std::int64_t before = 0;
@@ -67,6 +70,8 @@ void requireIds(vtkCellArray* cells, std::int64_t points, vtkIdType first, const
     }
   });
   visitIntegers(cells->GetConnectivityArray(), [&](const auto& connectivity) {
+    // One pass over all ids, without a look at the cells. Only a wrong id makes it necessary to
+    // find its cell.
     const auto isWrong = [points](const auto id) {
       return static_cast<std::int64_t>(id) < 0 || static_cast<std::int64_t>(id) >= points;
     };
@@ -76,6 +81,8 @@ void requireIds(vtkCellArray* cells, std::int64_t points, vtkIdType first, const
     {
       const auto place = static_cast<std::int64_t>(found - connectivity.begin());
       visitIntegers(cells->GetOffsetsArray(), [&](const auto& offsets) {
+        // The first offset beyond the place ends the cell that has it. A place before the first
+        // offset, or behind the last one, is in no cell.
         const auto after = std::upper_bound(
           offsets.begin(), offsets.end(), place, [](std::int64_t value, const auto offset) {
             return value < static_cast<std::int64_t>(offset);
@@ -94,6 +101,8 @@ void requireIds(vtkCellArray* cells, std::int64_t points, vtkIdType first, const
 // type.
 using PointsOfTypes = std::array<vtkIdType, 256>;
 
+// VTK has no table of these numbers, but an instance of each type knows its own. A type is one
+// byte.
 PointsOfTypes pointsOfTypes()
 {
   PointsOfTypes counts;
@@ -102,6 +111,7 @@ PointsOfTypes pointsOfTypes()
     vtkIdType& count = counts[static_cast<std::size_t>(type)];
     const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
     count = cell ? cell->GetNumberOfPoints() : -1;
+    // VTK's numbers of types have gaps between linear, quadratic, and convex or higher-order cells.
     const bool isFixed = (type >= VTK_TRIANGLE && type <= VTK_HEXAGONAL_PRISM) ||
       (type >= VTK_QUADRATIC_EDGE && type < VTK_CONVEX_POINT_SET) || type == VTK_VERTEX ||
       type == VTK_LINE;
@@ -109,6 +119,7 @@ PointsOfTypes pointsOfTypes()
       type == VTK_TRIANGLE_STRIP || type == VTK_POLYGON || type == VTK_QUADRATIC_POLYGON;
     count = count >= 0 && (!isFixed || isOfAnyNumber) ? 0 : count;
   }
+  // An empty cell may have points, which nobody reads.
   counts[VTK_EMPTY_CELL] = 0;
   return counts;
 }
@@ -116,6 +127,8 @@ PointsOfTypes pointsOfTypes()
 // Whether Lagrange and Bezier cells of this type can have so many points.
 bool isOfSomeOrder(int type, vtkIdType points)
 {
+  // Whether some order n gives the number count(n), which grows with n, so that the loop ends. VTK
+  // finds the order from the number of points and reads past the end for others.
   const auto isAny = [points](const auto& count) {
     vtkIdType order = 1;
     while (count(order) < points)
@@ -129,6 +142,8 @@ bool isOfSomeOrder(int type, vtkIdType points)
     case VTK_LAGRANGE_CURVE:
     case VTK_BEZIER_CURVE:
       return points >= 2;
+    // The numbers 7, 15 and 21 are those of quadratic cells with further nodes in the middles of
+    // their faces and of the cell.
     case VTK_LAGRANGE_TRIANGLE:
     case VTK_BEZIER_TRIANGLE:
       return points == 7 || isAny([](vtkIdType n) { return (n + 1) * (n + 2) / 2; });
@@ -158,6 +173,7 @@ void requireFaces(vtkUnstructuredGrid* grid, vtkIdType cell, const std::string& 
   vtkIdTypeArray* places = grid->GetFaceLocations();
   const vtkIdType size = faces ? faces->GetNumberOfValues() : 0;
   vtkIdType place = places && cell < places->GetNumberOfValues() ? places->GetValue(cell) : -1;
+  // Reads the stream value by value, so that a damaged number of faces or corners ends at its end.
   const auto next = [&]() {
     if (place < 0 || place >= size)
     {
@@ -181,6 +197,7 @@ void requireFaces(vtkUnstructuredGrid* grid, vtkIdType cell, const std::string& 
 #else
   vtkCellArray* places = grid->GetPolyhedronFaceLocations();
   vtkCellArray* faces = grid->GetPolyhedronFaces();
+  // In this version faces are cells of an array of their own, whose ids the caller checks.
   if (!faces || !places || cell >= places->GetNumberOfCells() || places->GetCellSize(cell) == 0)
   {
     throw Failure(cellOf(cell, name) + " is a polyhedron whose faces are not there");
@@ -188,6 +205,8 @@ void requireFaces(vtkUnstructuredGrid* grid, vtkIdType cell, const std::string& 
 #endif
 }
 
+// Types and connectivity come from different parts of a file. A cell with fewer points than its
+// type needs would make VTK read those of the next cell, or beyond the end.
 void requireTypes(vtkUnstructuredGrid* grid, const std::string& name)
 {
   static const PointsOfTypes pointsOfType = pointsOfTypes();
@@ -199,6 +218,8 @@ void requireTypes(vtkUnstructuredGrid* grid, const std::string& name)
       std::to_string(types ? types->GetNumberOfValues() : 0) + " cells, but " +
       std::to_string(cells) + " cells; there must be one for each");
   }
+  // With this attribute a cell may have another order along each axis, and more numbers are
+  // possible.
   const bool hasDegrees = grid->GetCellData()->GetHigherOrderDegrees() != nullptr;
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {
@@ -223,6 +244,7 @@ void requireTypes(vtkUnstructuredGrid* grid, const std::string& name)
   }
 }
 
+// The extent of a structured grid says how many points it has, but readers may deliver fewer.
 void requirePlaces(std::int64_t places, std::int64_t found, const std::string& name)
 {
   if (places > found)
@@ -232,6 +254,7 @@ void requirePlaces(std::int64_t places, std::int64_t found, const std::string& n
   }
 }
 
+// A rectilinear grid needs a coordinate for each layer of points along each axis.
 void requireCoordinates(vtkRectilinearGrid* grid, const std::string& name)
 {
   int size[3];
@@ -257,6 +280,7 @@ void requireReadableCells(vtkDataSet* data, const std::string& name)
   const std::int64_t points = data ? data->GetNumberOfPoints() : 0;
   if (auto* surface = vtkPolyData::SafeDownCast(data))
   {
+    // Cells of a vtkPolyData are numbered kind by kind, in this order.
     vtkIdType first = 0;
     for (vtkCellArray* cells :
       { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
@@ -267,6 +291,7 @@ void requireReadableCells(vtkDataSet* data, const std::string& name)
   }
   else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
   {
+    // Ids before types, as the check of types reads the sizes of cells from the offsets.
     requireIds(grid->GetCells(), points, 0, name);
 #ifndef RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
     vtkCellArray* faces = grid->GetPolyhedronFaces();

@@ -28,6 +28,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Asks an instance of each cell type for its dimension; 0 for numbers that are no type.
 std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
 {
   std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions;
@@ -39,6 +40,8 @@ std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
   return dimensions;
 }
 
+// The table is made at the first call, on any thread. Reading it is far cheaper than
+// vtkGenericCell.
 int dimensionOfType(int type)
 {
   static const auto dimensions = dimensionsOfTypes();
@@ -46,6 +49,8 @@ int dimensionOfType(int type)
                                                       : 0;
 }
 
+// The table has VTK's numbers from VTK_EMPTY_CELL, 0, to VTK_HEXAHEDRON, 12. The core knows the
+// order of their points; all other cells are divided into simplices.
 CellShape shapeOfType(int type)
 {
   constexpr std::array<CellShape, VTK_HEXAHEDRON + 1> shapes{ CellShape::Other, CellShape::Other,
@@ -57,8 +62,12 @@ CellShape shapeOfType(int type)
 }
 
 // Coordinates that are no doubles have single precision, or come from texts with few digits.
+// The relative rounding lets cells of an image be recognised although filters computed their
+// corners.
 double roundingOf(vtkDataSet* data)
 {
+  // Some units in the last place: coordinates are results of a few operations, each of which
+  // rounds.
   constexpr double ofFloats = 4.0 * std::numeric_limits<float>::epsilon();
   constexpr double ofDoubles = 16.0 * std::numeric_limits<double>::epsilon();
   const auto hasDoubles = [](auto* coordinates) {
@@ -77,6 +86,8 @@ double roundingOf(vtkDataSet* data)
   return areDoubles ? ofDoubles : ofFloats;
 }
 
+// The coordinates in memory, 3 values a point, which are read without virtual calls. nullptr for
+// other types and layouts, and for data sets that compute their points.
 const double* coordinatesOf(vtkDataSet* data)
 {
   auto* set = vtkPointSet::SafeDownCast(data);
@@ -99,11 +110,14 @@ void copyIds(vtkIdList* from, CellReader::Ids& to)
 }
 
 // Divides cells by VTK.
+// It has VTK's objects for one cell, so that each thread needs its own.
 class CellDivider
 {
 public:
   CellDivider() { this->Corners->SetDataTypeToDouble(); }
 
+  // Writes the points of the simplices, dimension + 1 ids each, numbered in the data set. False if
+  // VTK cannot divide the cell.
   bool Divide(vtkDataSet* data, vtkIdType number, CellReader::Ids& simplices)
   {
     data->GetCell(number, this->Cell);
@@ -116,6 +130,7 @@ public:
     }
     if (isDividedByNodes(type))
     {
+      // All cells of a type are divided in the same way, which is found once.
       CellReader::Ids& nodes = this->Nodes[type];
       if (nodes.empty())
       {
@@ -140,6 +155,8 @@ private:
   {
     const vtkIdType count = this->Cell->GetNumberOfPoints();
     vtkNew<vtkOrderedTriangulator> triangulator;
+    // A Delaunay triangulation of the nodes in the unit cube of parametric coordinates. Points of
+    // type 0 are inside, so that all tetrahedra of classification 0 together fill the cell.
     triangulator->InitTriangulation(0.0, 1.0, 0.0, 1.0, 0.0, 1.0, static_cast<int>(count));
     double* place = this->Cell->GetParametricCoords();
     for (vtkIdType i = 0; i < count; ++i, place += 3)
@@ -159,6 +176,8 @@ private:
   std::map<int, CellReader::Ids> Nodes; // for each type of cells
 };
 
+// Each thread reads through an object of its own. The data set is only read, but VTK needs memory
+// for the ids of the last cell.
 class MeshReader final : public CellReader
 {
 public:
@@ -185,11 +204,13 @@ public:
   bool Divide(std::int64_t cell, Ids& simplices) override
   {
     const CellShape shape = this->ShapeOf(cell);
+    // These are simplices as they are.
     if (shape == CellShape::Line || shape == CellShape::Triangle || shape == CellShape::Tetrahedron)
     {
       simplices = this->PointsOf(cell);
       return true;
     }
+    // Made on demand: most meshes have no cells that only VTK can divide.
     if (!this->Divider)
     {
       this->Divider = std::make_unique<CellDivider>();
@@ -223,6 +244,8 @@ MeshCells::MeshCells(vtkDataSet* data, const std::string& name)
   this->NumberOfPoints = data->GetNumberOfPoints();
   this->NumberOfCells = data->GetNumberOfCells();
   this->Rounding = roundingOf(data);
+  // Duplicate, hidden and refined cells do not count. Points that are duplicates keep their cells,
+  // which have flags of their own; only hidden points hide theirs.
   this->HiddenCells = { ghostFlags(data, vtkDataObject::CELL, name.c_str()), ghostCell };
   this->HiddenPoints = { ghostFlags(data, vtkDataObject::POINT, name.c_str()),
     vtkDataSetAttributes::HIDDENPOINT };
@@ -233,6 +256,7 @@ std::unique_ptr<CellReader> MeshCells::Read() const
   return std::make_unique<MeshReader>(this->Data);
 }
 
+// The first volume ends the loop, as nothing has more dimensions.
 int largestCellDimension(vtkDataSet* data)
 {
   int largest = 0;
