@@ -23,6 +23,9 @@ namespace
 
 // Contiguous tuples. Their number of components is a compile-time constant up to 4, so that the
 // loops are vectorised.
+// Both classes below are the Tuples of the core's TupleReader: VisitTuples calls visit(begin,
+// components) once for a run of tuples, where begin(i, c) is component c of the i-th tuple of the
+// run.
 template <class T>
 class BlockOfTuples
 {
@@ -36,6 +39,7 @@ public:
   template <class Visit>
   void VisitTuples(std::int64_t first, std::int64_t, const Visit& visit) const
   {
+    // The length of the run is not needed: visit reads the tuples that it wants.
     const T* block = this->Values + first * this->Components;
     const auto visitAs = [&](auto components) {
       constexpr int N = decltype(components)::value;
@@ -51,6 +55,7 @@ public:
         return visitAs(std::integral_constant<int, 3>());
       case 4:
         return visitAs(std::integral_constant<int, 4>());
+      // More components, as of tensors or time series, take a loop of variable length.
       default:
         return visit(
           [block, n = this->Components](std::int64_t i, int c) { return block[i * n + c]; },
@@ -81,6 +86,8 @@ public:
       this->Array, first * this->Components, (first + count) * this->Components);
     visit(
       [&range, n = this->Components](std::int64_t i, int c) {
+        // The cast turns references into values: some layouts give proxies. A vtkDataArray gives
+        // doubles.
         using Value = typename std::decay_t<decltype(range)>::ValueType;
         return static_cast<Value>(range[i * n + c]);
       },
@@ -92,6 +99,8 @@ private:
   int Components;
 };
 
+// Chooses the reader for the class of an array. Arrays of structs, one tuple after the other, are
+// what readers of files and numpy give; all other layouts are read through ranges.
 struct MakeReader
 {
   const DensityRules& Rules;
@@ -120,6 +129,7 @@ std::string describeArray(vtkDataArray* array)
 
 void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const std::string& what)
 {
+  // An array that is too long is an error, too: it probably belongs to another data set.
   const vtkIdType expected = onPoints ? data->GetNumberOfPoints() : data->GetNumberOfCells();
   if (array->GetNumberOfTuples() != expected)
   {
@@ -128,6 +138,7 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
   }
 }
 
+// Auto becomes a component by the type and number of components, so that the core needs no choice.
 DensityRules resolveRules(vtkDataArray* array, const std::string& name, const DensityRules& rules)
 {
   DensityRules taken = rules;
@@ -140,6 +151,8 @@ DensityRules resolveRules(vtkDataArray* array, const std::string& name, const De
 std::vector<FillValue> fillValuesOf(vtkFieldData* fields)
 {
   std::vector<FillValue> found;
+  // Readers pass such attributes on as field data, though the values stay in the arrays. They serve
+  // only for messages: what is missing follows from the rules.
   for (const char* name : { "_FillValue", "missing_value", "NO_DATA_VALUE" })
   {
     vtkDataArray* array = fields ? fields->GetArray(name) : nullptr;
@@ -154,6 +167,7 @@ std::vector<FillValue> fillValuesOf(vtkFieldData* fields)
 std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array, const DensityRules& rules)
 {
   MakeReader make{ rules, nullptr };
+  // Classes that the dispatch does not know are read as vtkDataArray, by virtual calls.
   if (!vtkArrayDispatch::Dispatch::Execute(array, make))
   {
     make(array);

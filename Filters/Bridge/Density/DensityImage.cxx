@@ -25,6 +25,7 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Cells in a range of work: enough to outweigh the start of a range, few enough for all threads.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 } // namespace
@@ -36,6 +37,7 @@ DensityImage::DensityImage(
   , Array(array)
 {
   requireTuples(array, image, onPoints, "input image");
+  // Cells of the image, or dual cells around its points: each value is the mean density of one.
   this->Geometry = gridOf(image, onPoints);
   requireCells(this->Geometry);
   this->FillValues = fillValuesOf(image->GetFieldData());
@@ -43,6 +45,8 @@ DensityImage::DensityImage(
   const auto time = [](vtkObject* object) {
     return object ? static_cast<std::uint64_t>(object->GetMTime()) : std::uint64_t{ 0 };
   };
+  // What the density is read from, whose values its hash covers. They stay in memory with this
+  // object.
   this->Sources = { this->Array, image->GetPointGhostArray(), image->GetCellGhostArray() };
   // The modification time of the vtkImageData itself: its GetMTime() includes all its arrays.
   this->SetForm({ array->GetDataType(), array->GetNumberOfComponents(), this->Sources[1] != nullptr,
@@ -51,6 +55,8 @@ DensityImage::DensityImage(
       static_cast<std::uint64_t>(image->vtkObject::GetMTime()) });
   this->Reader = makeDensityReader(array, this->Rules);
   constexpr const char* what = "input image";
+  // Ghost points have no value. For cell data, hidden points blank their cells, as in VTK; Prepare
+  // combines the flags of both.
   const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, what);
   if (onPoints)
   {
@@ -74,6 +80,8 @@ std::uint64_t DensityImage::Fingerprint(Progress& progress) const
 
 void DensityImage::Prepare(FlowTables /*tables*/, Progress& progress)
 {
+  // The order matters: white is found without blanked cells, densities depend on white, and what
+  // empty cells count as may be the mean or the least of all other densities.
   this->Known = {};
   this->Known.White = this->FindWhite(progress);
   this->SetWhite(this->White(), progress);
@@ -91,6 +99,8 @@ void DensityImage::SetEmpty(double density)
   this->Reader->SetEmpty(density);
 }
 
+// An inverted density is white - value, where white is one number for the whole image: a part of a
+// distributed image gets that of all ranks.
 void DensityImage::SetWhite(double white, Progress& progress)
 {
   this->BlankCellsOfHiddenPoints(progress);
@@ -104,9 +114,11 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
     return;
   }
   const std::int64_t cells = this->Geometry.NumberOfCells();
+  // One byte a cell; only images with hidden points need it.
   withMemory({ "the flags of the cells of the input image", static_cast<double>(cells) },
     [&]() { this->CombinedFlags.resize(static_cast<std::size_t>(cells)); });
   const std::array<int, 3> points = this->Geometry.NumberOfPoints();
+  // Whole rows of cells along the first axis, as the cells of a row share its points.
   const std::int64_t columns = std::max(1, points[0] - 1);
   const std::int64_t rowsAtOnce = std::max<std::int64_t>(1, grain / columns);
   progress.For(cells / columns, rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
@@ -133,6 +145,7 @@ LowestValue DensityImage::FindClamped(Progress& progress) const
                         : LowestValue();
 }
 
+// The box of all values, in the indices of the image's extent, which need not begin at 0.
 TupleBox DensityImage::AllTuples() const
 {
   const Extent& extent = this->Geometry.Extent();
@@ -141,6 +154,7 @@ TupleBox DensityImage::AllTuples() const
 
 OccupiedCells DensityImage::Occupied(const std::vector<TupleBox>& boxes, Progress& progress) const
 {
+  // The sums are exact, so that they are the same for every division into boxes, ranges and ranks.
   const TupleBox all = this->AllTuples();
   OccupiedCells filled;
   for (const TupleBox& box : boxes)
@@ -165,6 +179,7 @@ OccupiedCells DensityImage::Occupied(const std::vector<TupleBox>& boxes, Progres
   return filled;
 }
 
+// The input is shared and cropped in the copy; an empty extent gives an image without points.
 vtkSmartPointer<vtkImageData> DensityImage::ImageIn(const Extent& extent) const
 {
   const auto part = vtkSmartPointer<vtkImageData>::New();
@@ -176,6 +191,7 @@ vtkSmartPointer<vtkImageData> DensityImage::ImageIn(const Extent& extent) const
   return part;
 }
 
+// The input has all arrays everywhere, so that the extent is not needed.
 void DensityImage::SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> particles,
   Progress& progress, vtkPointData* output) const
 {

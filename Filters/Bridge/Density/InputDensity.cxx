@@ -14,6 +14,8 @@
 namespace RectifiedTransport::Bridge
 {
 
+// What outputs record of the rules. An end without a bound gets the finite number that ValidRange
+// has for it.
 DensityReading readingBy(const DensityRules& rules, const std::string& arrayName, int components)
 {
   return { arrayName, components, rules.Component, rules.Invert,
@@ -22,6 +24,7 @@ DensityReading readingBy(const DensityRules& rules, const std::string& arrayName
 
 void addReadings(vtkDataObject* output, const std::vector<DensityReading>& readings)
 {
+  // One value for each input, so that scripts can see how a result was made.
   vtkNew<vtkStringArray> names;
   names->SetName("DensityArrayName");
   vtkNew<vtkDoubleArray> ranges;
@@ -50,6 +53,8 @@ InputDensity::InputDensity(const std::string& name, const DensityRules& rules)
 {
 }
 
+// A padded density reads its values as the inner one does, but its identity includes the margin and
+// the rule for the margin's cells: tables of both differ. Some of its cells are empty.
 InputDensity::InputDensity(const InputDensity& inner, const ImageGrid& grown,
   const GridSize<3>& margin, const EmptyRule& rule)
   : Geometry(grown)
@@ -71,11 +76,15 @@ InputDensity::~InputDensity() = default;
 
 void InputDensity::SetForm(const ArrayForm& form, const std::vector<std::uint64_t>& times)
 {
+  // From here on Rules.Component is an index, Luminance or Magnitude, not Auto.
   this->Rules.Component = resolveComponent(this->Name, this->Rules.Component,
     automaticComponent(form.Type, form.Components), form.Components);
   this->Read = readingBy(this->Rules, this->NameOfArray(), form.Components);
+  // Cell ghosts do not hide point values; point ghosts hide both.
   this->MayBeEmpty = this->Rules.Missing.Are() || form.HasPointGhosts ||
     (form.HasCellGhosts && !this->Geometry.IsOnPoints());
+  // The identity of the tables: form and place of the values, and the sizes of the grid. Origin and
+  // directions of the grid are no part of it, as the core works in index space.
   const GridSize<3> size = this->CellsInSpace();
   for (const std::int64_t number : { std::int64_t{ form.Type }, std::int64_t{ form.Components },
          std::int64_t{ this->Geometry.Dimension() }, size[0], size[1], size[2],
@@ -84,6 +93,7 @@ void InputDensity::SetForm(const ArrayForm& form, const std::vector<std::uint64_
   {
     this->Reading.AddNumber(static_cast<std::uint64_t>(number));
   }
+  // Length, area or volume of a cell, by which the total mass is in physical units.
   const double measure = this->Geometry.CellMeasure();
   this->Reading.AddNumbers(&measure, 1);
   // Without empty cells what they count as is part of no density.
@@ -103,6 +113,7 @@ DataIdentity InputDensity::Identity() const
   return identity;
 }
 
+// Values may take gigabytes, so that they are hashed once, and only if times do not decide.
 std::uint64_t InputDensity::Hash(Progress& progress) const
 {
   if (!this->Hashed)
@@ -112,11 +123,13 @@ std::uint64_t InputDensity::Hash(Progress& progress) const
   return *this->Hashed;
 }
 
+// Without a finite value, for example if all cells are empty, 0 stands for white.
 double InputDensity::White() const
 {
   return std::isfinite(this->Known.White.Value) ? this->Known.White.Value : 0.0;
 }
 
+// The axes that the grid has come first, so that a box of cells in 1D or 2D is one in space, too.
 GridSize<3> InputDensity::CellsInSpace() const
 {
   GridSize<3> cells = this->Geometry.Size<3>();
@@ -159,11 +172,13 @@ void InputDensity::ReportSuspect(const SuspectValues& values, Progress& progress
     content = this->Identity();
     content.Hash(progress);
   }
+  // Also called without lines, so that the listener forgets what it has reported of other values.
   this->Notify(lines, content);
 }
 
 void InputDensity::ThrowInvalid(const DensitySummary& summary) const
 {
+  // A padded density passes on to the one inside, whose indices users know.
   DensitySummary own = summary;
   const InputDensity& source = this->SourceOf(own);
   throwInvalidDensity(source.Name, own, source.Rules.Missing, source.MayBeEmpty);

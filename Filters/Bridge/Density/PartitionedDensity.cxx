@@ -36,6 +36,7 @@ namespace
 std::uint64_t joinFingerprints(
   const Ranks& ranks, const std::vector<Extent>& parts, std::uint64_t own)
 {
+  // All ranks hash the same list, so that they agree on whether the density has changed.
   std::uint64_t joined = 0xcbf29ce484222325; // as FNV-1a, by words
   const auto add = [&joined](std::uint64_t bits) { joined = (joined ^ bits) * 0x100000001b3; };
   for (const std::uint64_t bits : gatherValues(ranks, own))
@@ -64,8 +65,12 @@ PartitionedDensity::PartitionedDensity(std::unique_ptr<const ImagePieces> pieces
   , Distribution(std::move(pieces))
   , ArrayName(name)
 {
+  // The grid is that of the whole image, on every rank, although none may ever have all of its
+  // values.
   this->Geometry = gridOf(this->Distribution->MakeFrame(), onPoints);
   requireCells(this->Geometry);
+  // Kinds are what all ranks agree on. Ranks without points have no arrays but need the same form,
+  // since the collective calls below depend on it.
   ArrayForm form{};
   bool isFound = false;
   for (const ArrayKind& kind : this->Distribution->Kinds())
@@ -87,6 +92,8 @@ PartitionedDensity::PartitionedDensity(std::unique_ptr<const ImagePieces> pieces
       " has not the same type and number of components on all ranks; it must have");
   }
   // Times differ among the ranks: only contents are compared.
+  // A number that no other density has makes times differ always, so that hashes decide on all
+  // ranks.
   static std::atomic<std::uint64_t> count{ 0 };
   this->SetForm(form, { ++count });
   this->FillValues = fillValuesOf(this->Distribution->OwnImage()->GetFieldData());
@@ -96,6 +103,8 @@ PartitionedDensity::~PartitionedDensity() = default;
 
 std::uint64_t PartitionedDensity::Fingerprint(Progress& progress) const
 {
+  // Each rank hashes the values that it has; 1 stands for no values, since 0 means that there is no
+  // hash.
   vtkImageData* own = this->Distribution->OwnImage();
   const std::uint64_t bits = fingerprint(
     { this->ArrayIn(own), own->GetPointGhostArray(), own->GetCellGhostArray() }, progress);
@@ -105,6 +114,8 @@ std::uint64_t PartitionedDensity::Fingerprint(Progress& progress) const
 
 void PartitionedDensity::Prepare(FlowTables tables, Progress& progress)
 {
+  // With tiles each rank only ever needs the boxes of the tiles at hand (see Part). Others need all
+  // values, which every rank gathers.
   if (tables == FlowTables::Tiled)
   {
     this->PreparePieces(progress);
@@ -125,6 +136,7 @@ const DensityValues* PartitionedDensity::Values() const
   return this->Gathered ? this->Gathered->Values() : nullptr;
 }
 
+// The part of each rank, by points: those of values on points, or the corners of values on cells.
 const std::vector<Extent>& PartitionedDensity::Extents() const
 {
   return this->Geometry.IsOnPoints() ? this->Distribution->Points() : this->Distribution->Cells();
@@ -142,12 +154,16 @@ vtkDataArray* PartitionedDensity::ArrayIn(vtkImageData* image) const
 
 void PartitionedDensity::PreparePieces(Progress& progress)
 {
+  // White, the clamped values and the density of empty cells depend on all values. Each rank finds
+  // them in its piece; ranks without a piece take part in the exchange with neutral ones. All ranks
+  // return here together, as the rules and the form are the same on all.
   this->Known = {};
   if (!this->NeedsWhite() && !this->Clamps() && !this->FillsEmpty())
   {
     return;
   }
   const Ranks& ranks = this->Distribution->Group();
+  // The piece without the layers of duplicates around it.
   const auto piece = this->Gather(this->OwnExtent());
   // What all ranks found is joined by the numbers that tuples have in the whole image.
   const Extent& whole = this->Geometry.Extent();
@@ -162,6 +178,7 @@ void PartitionedDensity::PreparePieces(Progress& progress)
       merge(part, all);
     }
   };
+  // White comes first, since with an inverted density it decides which values are negative.
   join(piece ? piece->FindWhite(progress) : LargestValue(), this->Known.White);
   if (piece)
   {
@@ -209,6 +226,9 @@ std::shared_ptr<const DensityValues> PartitionedDensity::Part(
   {
     return this->Gathered->Part(low, high);
   }
+  // Values of the cells [low, high) of the grid: `low` and `high` count the grid's own axes, while
+  // an extent has all three and counts points. Between n + 1 points there are n cells, and around n
+  // points n dual cells.
   const ImageGrid& grid = this->Geometry;
   LatticePart<3> part{ low, {} };
   std::transform(high.begin(), high.end(), low.begin(), part.Cells.begin(), std::minus<>());
@@ -224,6 +244,7 @@ std::shared_ptr<const DensityValues> PartitionedDensity::Part(
       ++axis;
     }
   }
+  // A rank that needs nothing still takes part in the exchange, with an empty extent.
   if (part.IsEmpty())
   {
     extent = { 0, -1, 0, -1, 0, -1 };
@@ -233,14 +254,17 @@ std::shared_ptr<const DensityValues> PartitionedDensity::Part(
   {
     return std::make_shared<DensityArray<3, double>>(nullptr, GridSize<3>{});
   }
+  // Part has no progress of its own; the flags of a box take little time on one thread.
   const SerialExecutor serial;
   Progress progress{ Context(serial) };
   box->SetWhite(this->White(), progress);
   box->SetEmpty(this->Empty);
+  // Cells keep their numbers in the whole grid. Those outside of the box are not read.
   return std::make_shared<PaddedValues>(
     std::shared_ptr<const DensityValues>(box, box->Values()), part, this->CellsInSpace(), 0.0);
 }
 
+// With all arrays that the ranks have in common, for outputs that pass them on.
 vtkSmartPointer<vtkImageData> PartitionedDensity::ImageIn(const Extent& extent) const
 {
   return this->Distribution->Gather(extent);

@@ -29,6 +29,7 @@ public:
 
   // All outlines of a region are one path, filled by the even-odd rule: an outline within another
   // one is a hole.
+  // The colour is that of the first outline's cell, or the mean of all points.
   void PaintRegions()
   {
     std::vector<vtkIdType> points;
@@ -49,6 +50,8 @@ public:
     }
   }
 
+  // Draws one shape over what is there: polygons are filled if they have colours and stroked
+  // otherwise.
   void Paint(const Shape& shape)
   {
     const Colour colour = this->Painted.Colours.Of(shape);
@@ -61,6 +64,7 @@ public:
     this->Areas.Draw();
     if (shape.Kind == ShapeKind::Dot)
     {
+      // From units of the data to millimetres. A radius from an array may be 0: it draws nothing.
       const double radius = this->Layout.Scale() * this->Painted.RadiusAt(shape.Points[0]);
       if (radius > 0.0)
       {
@@ -81,6 +85,7 @@ public:
   void End() { this->Areas.Draw(); }
 
 private:
+  // Sets the current path to points of the data, on the page in millimetres; its memory is reused.
   void SetPath(const vtkIdType* points, vtkIdType count)
   {
     this->Path.clear();
@@ -93,6 +98,8 @@ private:
   // With colours on points each segment has its own.
   void PaintLine(const Shape& line, Colour colour)
   {
+    // Outlines that are filled get a black stroke. The path is closed, so that it does not need the
+    // last point, which repeats the first one: joins of strokes would differ there.
     if (this->Painted.IsOutline(line.Cell))
     {
       this->Path.pop_back();
@@ -136,9 +143,11 @@ DrawingLayer::DrawingLayer(
   {
     this->Radii.emplace(data.Radii, progress);
   }
+  // Without colours regions would hide each other in black.
   if (fillsOutlines && this->Colours.AreGiven())
   {
     this->Regions = findOutlineRegions(this->Shapes.Data()).Regions;
+    // One flag a cell: lines that are outlines are stroked as closed paths.
     this->Outlines.assign(static_cast<std::size_t>(this->Shapes.Data()->GetNumberOfCells()), 0);
     for (const std::vector<Outline>& region : this->Regions)
     {
@@ -154,6 +163,7 @@ void DrawingLayer::Draw(const PageLayout& layout, Drawing& drawing, Progress& pr
 {
   LayerPainter painter(*this, layout, drawing);
   painter.PaintRegions(); // below the rest
+  // Filled polygons first, then lines and dots, in the order of PolyDataShapes.
   this->Shapes.ForEach(progress, [&](const Shape& shape) { painter.Paint(shape); });
   painter.End();
 }

@@ -37,6 +37,9 @@ public:
     this->Lines->DeepCopy(data->GetLines());
   }
 
+  // The order of the calls is that of the kinds of cells in a vtkPolyData, for vertices and lines,
+  // then lines around polygons, areas and strips: Cells and CellsOfAreas grow in step with the
+  // output's cells.
   void Fill()
   {
     const OutlineRegions outlines = findOutlineRegions(this->Data);
@@ -66,6 +69,7 @@ private:
     double Part; // the share of that edge before the point, from 0 to 1
   };
 
+  // The cells [first, last) of the input are cells of the output as they are.
   void AddCells(vtkIdType first, vtkIdType last)
   {
     for (vtkIdType cell = first; cell < last; ++cell)
@@ -74,6 +78,8 @@ private:
     }
   }
 
+  // `first` is the number of the first polygon among all cells. Polygons without points, which
+  // files may have, are left out.
   void FillPolygons(vtkIdType first)
   {
     vtkNew<vtkIdList> polygon;
@@ -110,6 +116,7 @@ private:
       this->Data->GetPoint(polygon->GetId(static_cast<vtkIdType>(i)), places[i].data());
     }
     RingPlane plane;
+    // A polygon has a plane of its own, as surfaces bend; outlines of a map share one.
     plane.Add(places);
     if (isConvex(places) || !plane.HasArea() || !areFinite(places))
     {
@@ -125,6 +132,8 @@ private:
   // edges.
   void FillRegion(const std::vector<Outline>& region, const PlaneFrame& plane)
   {
+    // Points of the rings are numbered from 0, ring by ring; `points` gives their ids in the data
+    // set, and those of crossings follow.
     Rings rings;
     std::vector<vtkIdType> points;
     for (const Outline& outline : region)
@@ -153,6 +162,7 @@ private:
     }
   }
 
+  // Returns the id that the point will have: added points follow those of the input.
   vtkIdType AddPoint(vtkIdType first, vtkIdType second, double part)
   {
     Point<3> from;
@@ -163,6 +173,7 @@ private:
     return this->Data->GetNumberOfPoints() + static_cast<vtkIdType>(this->Added.size()) - 1;
   }
 
+  // The output replaces the data at the end, in one step, so that a Failure leaves them unchanged.
   void Attach()
   {
     vtkNew<vtkPolyData> filled;
@@ -175,6 +186,7 @@ private:
     cells->Initialize();
     cells->CopyAllOn();
     cells->CopyAllocate(this->Data->GetCellData(), this->Cells->GetNumberOfIds());
+    // Each cell of the output gets the tuples of one cell of the input.
     cells->CopyData(this->Data->GetCellData(), this->Cells);
     if (!this->Added.empty())
     {
@@ -188,6 +200,7 @@ private:
     const vtkIdType before = this->Data->GetNumberOfPoints();
     const vtkIdType count = before + static_cast<vtkIdType>(this->Added.size());
     vtkNew<vtkPoints> points;
+    // Copies, as the input may share its points with other data sets. Coordinates keep their type.
     points->SetDataType(this->Data->GetPoints()->GetDataType());
     points->DeepCopy(this->Data->GetPoints());
     points->Resize(count);

@@ -34,6 +34,9 @@ bool isOfCells(vtkCellData* data, vtkAbstractArray* array)
 }
 
 // The arrays whose values tell regions apart.
+// Readers of maps repeat the attributes of a country for each of its outlines, so that equal
+// values of all arrays mean one region. Arrays that are too short throw Failure: their tuples are
+// read below.
 std::vector<vtkAbstractArray*> arraysOfRegions(vtkPolyData* data)
 {
   std::vector<vtkAbstractArray*> arrays;
@@ -50,6 +53,7 @@ std::vector<vtkAbstractArray*> arraysOfRegions(vtkPolyData* data)
   return arrays;
 }
 
+// One pass over the lines of the data: each line that is an outline joins the region of its values.
 class OutlineSearch
 {
 public:
@@ -57,12 +61,16 @@ public:
     : Data(data)
     , Ghosts(ghostFlags(data, vtkDataObject::CELL, "input"))
   {
+    // Before any cell is read: VTK does not check the ids of points, which a damaged file may have
+    // wrong.
     requireReadableCells(data, "input");
     this->Arrays = arraysOfRegions(data);
   }
 
   OutlineRegions Find()
   {
+    // Lines follow the vertices in the numbering of cells. The iterator gives ids without a copy
+    // where the array has vtkIdType.
     vtkIdType cell = this->Data->GetNumberOfVerts();
     const auto line =
       vtkSmartPointer<vtkCellArrayIterator>::Take(this->Data->GetLines()->NewIterator());
@@ -76,6 +84,7 @@ public:
         this->Add({ cell, { points, points + count - 1 } });
       }
     }
+    // The plane of the sum of all rings; without an outline the default one stays.
     if (this->Plane.HasArea())
     {
       this->Found.Plane = this->Plane.Frame();
@@ -91,6 +100,8 @@ private:
     return place;
   }
 
+  // Whether a line is closed, by coordinates, as readers may repeat the first point under another
+  // id. Sets Places to its points without the last one. A triangle is the shortest, with 4 ids.
   bool IsOutline(vtkIdType cell, vtkIdType count, const vtkIdType* points)
   {
     const bool isGhost = this->Ghosts && (this->Ghosts[cell] & ghostCell);
@@ -106,6 +117,8 @@ private:
     return areFinite(this->Places) && hasArea(this->Places);
   }
 
+  // Adds an outline whose points are in Places. Regions are numbered in the order of their first
+  // outlines, so that drawings do not depend on hashes.
   void Add(Outline&& outline)
   {
     this->Plane.Add(this->Places);

@@ -25,11 +25,13 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// The property and the array in messages, "RadiusArray 'r'".
 std::string titleOf(const char* property, vtkAbstractArray* array)
 {
   return std::string(property) + " '" + (array->GetName() ? array->GetName() : "") + "'";
 }
 
+// Whether a shape is drawn with the line width, half of which lies outside of its points.
 bool isStroked(const DrawingLayer& layer, const Shape& shape)
 {
   return shape.Kind == ShapeKind::Line ||
@@ -56,6 +58,8 @@ LargeBuffer<double> dotsOf(
   return dots;
 }
 
+// Adds a shape to what the page must hold: its points, with the radius around a dot that has one.
+// Dots that still lack the common radius are only counted with their places.
 void include(const DrawingLayer& layer, const Shape& shape, DrawingExtent& extent)
 {
   extent.HasStrokes = extent.HasStrokes || isStroked(layer, shape);
@@ -86,12 +90,15 @@ vtkSmartPointer<vtkScalarsToColors> tableOf(const std::vector<LayerData>& data)
     if (array && !areColours(array))
     {
       double range[2];
+      // The magnitude, -1, for arrays of several components, as VTK's mapper shows vectors. NaN and
+      // infinity have no place in a range.
       array->GetFiniteRange(range, array->GetNumberOfComponents() == 1 ? component : -1);
       least = std::min(least, range[0]);
       greatest = std::max(greatest, range[1]);
     }
   }
   const auto table = vtkSmartPointer<vtkLookupTable>::New();
+  // Without finite values the table keeps its default range from 0 to 1.
   if (least <= greatest)
   {
     table->SetTableRange(least, greatest);
@@ -114,6 +121,8 @@ void requireColours(vtkAbstractArray* array, vtkScalarsToColors* table)
 
 } // namespace
 
+// Lengths of the page are millimetres, PointRadius is in units of the data. Properties are checked
+// before inputs are read, so that their messages come first.
 void TransportVectorWriter::Check() const
 {
   const auto require = [](const char* property, double value, bool isLarge, const char* rule) {
@@ -148,6 +157,7 @@ void TransportVectorWriter::Run(
         drawn.HasColoursOnPoints ? own->GetNumberOfPoints() : own->GetNumberOfCells(),
         drawn.HasColoursOnPoints ? "point" : "cell", "input");
       requireColours(drawn.Colours, this->LookupTable);
+      // One table for all data sets, so that equal values have equal colours on the whole page.
       table = table ? table : tableOf(data);
     }
     if (drawn.Radii)
@@ -158,6 +168,7 @@ void TransportVectorWriter::Run(
   }
 
   std::vector<DrawingLayer> layers;
+  // Layers hold references and large arrays: none is moved as others are added.
   layers.reserve(data.size());
   Stages stages(progress, { { "points", 1 }, { "extent", 1 }, { "spacing", 3 }, { "drawing", 5 } });
   Progress& reading = stages["points"].Expect(points);
@@ -165,6 +176,7 @@ void TransportVectorWriter::Run(
   {
     layers.emplace_back(drawn, this->FillOutlines, table, reading);
   }
+  // Twice, as the places of dots may be collected by a second visit.
   Progress& visits = stages["extent"].Expect(2 * shapes);
   DrawingExtent extent;
   for (const DrawingLayer& layer : layers)
@@ -174,12 +186,16 @@ void TransportVectorWriter::Run(
   if (extent.NumberOfDots > 0)
   {
     double radius = this->PointRadius;
+    // PointRadius 0 stands for a radius from the spacing of dots, with which those of equal mass
+    // show the density by their area. A single dot has no spacing.
     if (radius == 0.0)
     {
       const LargeBuffer<double> dots = dotsOf(layers, extent.NumberOfDots, visits);
       radius = radiusOfDots({ dots.data(), extent.NumberOfDots }, stages["spacing"]);
       radius = radius > 0.0 ? radius : extent.RadiusWithoutNeighbours();
     }
+    // All dots without a radius of their own get the same one, in units of the data; then the
+    // extent can include their discs.
     for (DrawingLayer& layer : layers)
     {
       layer.Radius = radius;
@@ -192,6 +208,7 @@ void TransportVectorWriter::Run(
                       "vtkGhostType marks them as duplicates or hidden"
                     : "The input has no points; there is nothing to draw");
   }
+  // All that can be wrong with properties and data has been found before the drawing begins.
   const PageLayout layout = this->Page.Layout(extent, drawing.LongestSide());
   drawing.Begin(
     { layout.Size(), this->Page.HasBounds() ? this->Page.Margin : 0.0, this->Page.LineWidth });
