@@ -17,6 +17,9 @@ namespace
 {
 
 // What a map depends on.
+// A change of any of these gives other particles or other positions. The pivot counts by its
+// numbers of cells alone, as particles start in a unit box (Section 3.4), wherever the grid of the
+// blend lies.
 DataIdentity identityOf(const InputDensity& density, const LinearizedMapSettings& settings)
 {
   DataIdentity identity = density.Identity();
@@ -34,6 +37,10 @@ DataIdentity identityOf(const InputDensity& density, const LinearizedMapSettings
   return identity;
 }
 
+// The linearized map of one density: the particles of the pivot, equally many in each of its cells,
+// are advected forward to the density by the rectified flow. They are this rank's share of all
+// particles, in the order of their numbers, so that particles of one number correspond in all
+// inputs.
 template <int D>
 std::shared_ptr<const LinearizedMap> make(InputDensity& density,
   const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress)
@@ -41,12 +48,14 @@ std::shared_ptr<const LinearizedMap> make(InputDensity& density,
   Stages stages(progress, { { "tables", 4 }, { "positions", 96 } });
   const PivotLattice<D> pivot = pivotLattice<D>(settings.Pivot.Size<D>(), settings.PerCell);
   const std::int64_t particles = settings.Share.Count;
+  // Tiles or whole tables, by the memory that is there and the number of particles.
   const FlowTables kind = requireTables(chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { settings.Options, FlowDirection::Forward, static_cast<double>(particles), true, "" }));
   const SharedFlow& flow = tables.Update(density, stages["tables"], kind);
   auto map = std::make_shared<LinearizedMap>();
   map->TotalMass = flow.TotalMass();
   map->Positions = newArray<vtkDoubleArray>("Positions", 3, particles);
+  // In 3D index coordinates are in the output array and converted in place; else there is a buffer.
   const double bytes = D == 3 ? 0.0 : static_cast<double>(particles * D) * sizeof(double);
   requireMemory({ "the particles", bytes });
   map->Flow = writePivot<D>(flow.Flow<D>(), density.Grid(), pivot, settings.Share,
@@ -59,6 +68,7 @@ std::shared_ptr<const LinearizedMap> make(InputDensity& density,
 const StoreSlot* findMap(const StoreSlot* begin, const StoreSlot* end, DataIdentity& identity,
   bool byContents, Progress& progress)
 {
+  // A rank that lacks a map makes all ranks make it, as advection and hashing are collective.
   const auto agreed = [&](const StoreSlot* found) {
     return onAllRanks(progress.Group(), found != end) ? found : end;
   };
@@ -77,6 +87,8 @@ const StoreSlot* findMap(const StoreSlot* begin, const StoreSlot* end, DataIdent
 template <int D>
 std::vector<MemoryPlan> memoriesOfMaps(const BlendRun& run, const Ranks& ranks)
 {
+  // Between two inputs there is one map, from the first to the second; else one from the
+  // barycenter's grid to each input that has a weight. Maps are found one after the other.
   const OptimalNeeds needs{ run.Settings.Optimal, run.Particles };
   const auto sizeOf = [&](std::size_t i) { return run.Inputs[i].Density->Grid().Size<D>(); };
   if (run.Settings.ComparesEnds)
@@ -99,6 +111,7 @@ template <int D>
 void requireFor(const BlendRun& run, const Ranks& ranks)
 {
   // Positions in the inputs and slack, and points and images in index spaces.
+  // 3 coordinates in each input, one slack, and D coordinates of a point and of its image.
   const double each =
     sizeof(double) * (3.0 * static_cast<double>(run.Inputs.size()) + 1.0 + 2.0 * D);
   for (const MemoryPlan& memory : memoriesOfMaps<D>(run, ranks))
@@ -130,6 +143,7 @@ template <int D>
 void findOptimal(const BlendRun& run, Progress& progress, BlendPositions& found,
   std::vector<std::string>& warnings)
 {
+  // The maps begin at the flow's positions, of which each particle has one in each input.
   std::vector<BlendedDensity<D>> densities;
   for (std::size_t i = 0; i < run.Inputs.size(); ++i)
   {
@@ -140,6 +154,8 @@ void findOptimal(const BlendRun& run, Progress& progress, BlendPositions& found,
   }
   std::vector<MemoryPlan> memories = memoriesOfMaps<D>(run, progress.Group());
   memories.push_back({ "the optimal maps", 0.0 });
+  // The plan with the most bytes gives the message if memory ends anywhere in the solutions; the
+  // last one takes no memory, so that there is always one.
   const auto largest = std::max_element(memories.begin(), memories.end(),
     [](const MemoryPlan& a, const MemoryPlan& b) { return a.Bytes < b.Bytes; });
   const OptimalSetting& setting = run.Settings.Optimal;
@@ -149,6 +165,7 @@ void findOptimal(const BlendRun& run, Progress& progress, BlendPositions& found,
   });
   for (std::size_t i = 0; i < run.Inputs.size(); ++i)
   {
+    // Inputs without a new array keep the positions of the flow, which the maps own.
     if (moved.Moved[i])
     {
       found.Positions[i] = arrayOf<vtkDoubleArray>("Positions", 3, *moved.Moved[i]);
@@ -164,6 +181,9 @@ void findOptimal(const BlendRun& run, Progress& progress, BlendPositions& found,
   }
 }
 
+// The transport cost of the particles between two inputs, the mean of |y - x|^2 over those of all
+// ranks, and their displacements y - x. The particles of one number make the coupling of both
+// densities.
 void compareEnds(const BlendRun& run, Progress& progress, BlendPositions& found)
 {
   const ConstPointSpan<3> from = spanOf(found.Positions[0]);
@@ -177,8 +197,12 @@ void compareEnds(const BlendRun& run, Progress& progress, BlendPositions& found)
 std::size_t LinearizedMaps::Match(
   const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings, Progress& progress)
 {
+  // Slots share what they keep, so that a map whose input moved to another connection, or that
+  // several inputs have, stays. What no input has is released at the end.
   const std::vector<StoreSlot> before = std::exchange(this->Slots, {});
   const StoreSlot* const end = before.data() + before.size();
+  // Hashing takes a pass over all values: without maps to compare with it is not needed. On several
+  // ranks another one may have maps, and hashing is collective.
   const bool byContents = !before.empty() || progress.Group().AreSeveral();
   std::size_t missing = 0;
   for (const BlendInput& input : inputs)
@@ -205,6 +229,7 @@ BlendReport LinearizedMaps::Make(const std::vector<BlendInput>& inputs,
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     StoreSlot& slot = this->Slots[i];
+    // Match has found a map for this input on all ranks.
     if (!slot.IsEmpty())
     {
       continue;
@@ -222,6 +247,7 @@ BlendReport LinearizedMaps::Make(const std::vector<BlendInput>& inputs,
     }
     try
     {
+      // No other filter has use for maps from this pivot, so that they are not shared.
       const auto map = slot.Get<const LinearizedMap>(
         identity, progress.Group(), making["comparison"], Sharing::None, [&]() {
           return dispatchDimension(density.Grid().Dimension(), make<1>, make<2>, make<3>)(
@@ -237,6 +263,7 @@ BlendReport LinearizedMaps::Make(const std::vector<BlendInput>& inputs,
     }
     catch (const Failure& failure)
     {
+      // Which of the inputs is wrong would not be clear from the density alone.
       throw Failure(inputs[i].Name, failure);
     }
   }
@@ -253,6 +280,8 @@ std::shared_ptr<const BlendPositions> findPositions(const BlendRun& run, const L
   StoreSlot& kept, Progress& progress, std::vector<std::string>& warnings)
 {
   const OptimalSetting& optimal = run.Settings.Optimal;
+  // What the positions depend on: the geometry of the blend, the settings of optimal maps, and each
+  // input's map. Linearized positions depend on nothing else.
   DataIdentity identity;
   identity.AddGrid(run.Geometry);
   identity.AddNumbers(&optimal.Tolerance, 1);

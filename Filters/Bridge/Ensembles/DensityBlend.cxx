@@ -31,6 +31,9 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// The grid of the blend: the smallest box around all inputs, with the given dimensions or the
+// finest spacing, but then with no more cells than the largest input, which bounds the number of
+// particles.
 ImageGrid gridBetween(const std::vector<BlendInput>& inputs, const int dimensions[3])
 {
   std::vector<NamedGrid> grids;
@@ -56,6 +59,7 @@ void requireMemoryFor(double particles, std::size_t inputs, bool withDisplacemen
 void reuseOrMake(
   vtkSmartPointer<vtkDoubleArray>& array, const char* name, int components, std::int64_t tuples)
 {
+  // An output that somebody still holds, such as a cache of time steps, must keep its values.
   const bool isUnique = array && array->GetReferenceCount() == 1;
   if (!isUnique || array->GetNumberOfTuples() != tuples)
   {
@@ -87,6 +91,9 @@ void writeInput(const AdvectedInput& input, const ImageGrid& grid, const TupleBo
   rescaleMass(input.OwnMass, input.Mass, values, wanted.Count());
 }
 
+// Each rank reads a part of the input's cells, without overlap, and the ranks then exchange cells
+// with those that want the places to which they move. All bits are the same for any number of
+// ranks.
 template <int D>
 void addMoved(const AdvectedInput& input, const ImageGrid& grid, const TupleBox& wanted,
   Progress& progress, double* density)
@@ -110,6 +117,8 @@ void addAdvectedInput(const AdvectedInput& input, const ImageGrid& grid, const T
   Progress& progress, double* density)
 {
   const double cells = static_cast<double>(wanted.Count());
+  // See addAdvected: doubles for each cell, among them its mean displacement, and a key for each
+  // particle.
   const double bytes = 8.0 * (6.0 + grid.Dimension()) * cells +
     8.0 * static_cast<double>(input.From->GetNumberOfTuples());
   withMemory({ "the cells near an input", bytes }, [&]() {
@@ -127,6 +136,7 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   vtkImageData* image = vtkImageData::GetData(outputs, 0);
   vtkPolyData* particles = vtkPolyData::GetData(outputs, 1);
   const Ranks& ranks = progress.Group();
+  // The number of particles is a double here: it is checked before it becomes an integer.
   const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
   const BlendRun run{ inputs, settings, geometry,
     numberOfValues(geometry) * settings.ParticlesPerCell };
@@ -135,11 +145,13 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
   const auto count = static_cast<std::int64_t>(run.Particles);
   const LinearizedMapSettings pivot{ geometry, settings.ParticlesPerCell, settings.Flow,
     settings.Tables, RankShare(count, ranks) };
+  // The image gets the whole grid first, and below this rank's part of it, before its values.
   Extent wanted = extentToGive(geometry.Extent(), announced, ranks);
   applyGrid(geometry, image);
   announceGrid(geometry, announced); // the association may not be known before the data
 
   Stages whole(progress, { { "kept maps", 1 }, { "blend", 99 } });
+  // Maps are nearly all of the work: if only weights change, kept maps give the blend at once.
   const std::size_t newMaps = this->Maps.Match(inputs, pivot, whole["kept maps"]);
   if (newMaps > 0)
   {
@@ -151,6 +163,7 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
       requireMemoryForMaps(run, ranks);
     }
   }
+  // Estimated times for each particle of the blend, by which the stages divide the progress.
   const double mapCost =
     static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension());
   const double solutions = settings.Optimal.NeedsMap()
@@ -181,6 +194,7 @@ BlendReport DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blend
     movedInAll += flows.back().MovedToMass;
     readings.push_back(inputs[i].Density->HowRead());
   }
+  // The masses of the inputs, as their tables sum them, determine that of the blend.
   const double mass = blendedMass(settings.Mode, masses, weights);
   requireFiniteDensity(
     mass, { geometry, settings.Splat, true }, "The particles' masses", "or the cells larger");
@@ -217,6 +231,8 @@ void DensityBlend::TakeMeans(const BlendRun& run, const BlendPositions& found, P
 {
   const std::int64_t count = found.Positions.front()->GetNumberOfTuples();
   reuseOrMake(this->Means, "Points", 3, count);
+  // The blend of particle i is the weighted mean sum_k w_k x_k(i) of its positions in the inputs,
+  // physical and with weights that sum to 1 (Section 3.4).
   std::vector<WeightedPositions> parts;
   for (std::size_t i = 0; i < run.Inputs.size(); ++i)
   {
@@ -261,6 +277,7 @@ void DensityBlend::WriteParticles(const BlendRun& run, const BlendPositions& fou
   double* masses = this->Masses->GetPointer(0);
   const double each = mass / run.Particles;
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+  // All particles have the same mass, the mass of the blend divided by their number on all ranks.
   stages["masses"].For(count, grain,
     [=](std::int64_t first, std::int64_t last) { std::fill(masses + first, masses + last, each); });
   data->AddArray(this->Masses);
@@ -278,12 +295,15 @@ void DensityBlend::WriteDensity(const BlendRun& run, const BlendPositions& found
   const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
   reuseOrMake(this->Density, "Density", 1, box.Count());
   output->GetAttributes(owner)->SetScalars(this->Density);
+  // Particles resolve a density only to their spacing, but the input itself has all details: its
+  // own cells take part from a weight of .9 on (see shareOfHeaviest).
   const auto heaviest = std::max_element(run.Inputs.begin(), run.Inputs.end(),
     [](const BlendInput& a, const BlendInput& b) { return a.Weight < b.Weight; });
   const auto number = static_cast<std::size_t>(heaviest - run.Inputs.begin());
   const double share = shareOfHeaviest(heaviest->Weight);
   const AdvectedInput input{ *heaviest->Density, this->Maps[number].TotalMass, share * mass,
     found.Positions[number], this->Means };
+  // Nothing moves: the values are those of the input, to the bit where grids agree.
   if (heaviest->Weight == 1.0)
   {
     writeInput(input, geometry, box, progress, this->Density->GetPointer(0));

@@ -77,6 +77,7 @@ DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
   input.Reading = density.HowRead();
   input.Grid = density.Grid();
   input.Values = wholeValues(density, "Density", progress);
+  // The copy above is all that is needed: what ranks gathered for it would double the memory.
   density.ReleaseGathered();
   const DensityArray<1, double> values(input.Values->GetPointer(0), { input.Grid.NumberOfCells() });
   input.Mass = requireMass(density, values, progress);
@@ -85,6 +86,7 @@ DistanceInput readDistanceInput(InputDensity& density, Progress& progress)
   return input;
 }
 
+// A filter calls Begin in each run; distances of densities that come again are not computed again.
 void DensityDistances::Begin(DistanceMethod method)
 {
   this->Method = method;
@@ -97,6 +99,7 @@ void DensityDistances::Add(DistanceInput input, Progress& progress)
   if (!this->Entries.empty())
   {
     const DistanceInput& first = this->Entries.front();
+    // Distances are between measures in one box. Grids in it may differ.
     requireSameBox({ first.Grid, first.Title }, { input.Grid, input.Title });
     // The potentials that certify a distance need both densities on the same cells. Linearized
     // compares maps from one reference, which takes any grids in the same box.
@@ -108,17 +111,22 @@ void DensityDistances::Add(DistanceInput input, Progress& progress)
         describeValues(input.Grid), " (Linearized takes both)");
     }
   }
+  // The deleter owns the array, so that the values end with the last one who needs them, and the
+  // entry keeps none: memory holds the values of few densities at a time.
   const std::shared_ptr<const double> values(
     input.Values->GetPointer(0), [kept = input.Values](const double*) {});
   input.Values = nullptr;
   this->Entries.push_back(std::move(input));
   const DistanceInput& added = this->Entries.back();
+  // The content of the identity names the values: known distances are found by it. The answer is
+  // true when so many maps are missing that all threads have work.
   if (this->Distances.Add(added.Identity.Content(), added.Grid, values, progress))
   {
     this->MakeMaps(progress);
   }
 }
 
+// Makes the maps of all densities that wait, several at a time, and releases their values.
 void DensityDistances::MakeMaps(Progress& progress)
 {
   const std::string cells =
@@ -148,6 +156,7 @@ void writeDistances(
 {
   const std::size_t count = inputs.size();
   const std::vector<std::string> names = columnNames(inputs);
+  // The matrix is symmetric, so that columns and rows are the same.
   const std::vector<double> matrix = matrixOf(count, pairs);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -157,6 +166,7 @@ void writeDistances(
 
 void writeBounds(std::size_t inputs, const std::vector<DistancePair>& pairs, vtkTable* table)
 {
+  // The numbers of both inputs for each pair, in the order of DistanceSet::Find.
   std::vector<std::pair<vtkIdType, vtkIdType>> numbers;
   for (std::size_t i = 0; i < inputs; ++i)
   {
@@ -177,6 +187,8 @@ void writeCoordinates(const std::vector<DistanceInput>& inputs,
   const std::vector<DistancePair>& pairs, int dimensions, Progress& progress, vtkTable* table)
 {
   const std::size_t count = inputs.size();
+  // Classical scaling (Torgerson 1952) places the inputs in `dimensions` axes, so that their
+  // Euclidean distances come near those of the matrix. Stress is the part that this loses.
   const ScaledPoints points = scaleClassically(
     matrixOf(count, pairs), static_cast<std::int64_t>(count), dimensions, progress);
   const auto axes = static_cast<std::size_t>(dimensions);
@@ -192,6 +204,7 @@ void writeCoordinates(const std::vector<DistanceInput>& inputs,
     names->InsertNextValue(name);
   }
   table->AddColumn(names);
+  // Either all inputs are steps of one series and have times, or none has.
   if (!std::isnan(inputs.front().Time))
   {
     addColumn(table, "Time", count, [&](std::size_t i) { return inputs[i].Time; });

@@ -40,6 +40,8 @@ public:
   {
     constexpr double real = sizeof(double);
     const double scratch = D == 3 ? 0.0 : real * D;
+    // 3 coordinates and 3 components of the displacement a point and, where D is not 3, D index
+    // coordinates.
     requireMemory({ this->Purpose, static_cast<double>(this->Count) * (6 * real + scratch) });
     this->Points = newArray<vtkDoubleArray>("Points", 3, this->Count);
     this->Displacements = newArray<vtkDoubleArray>("Displacement", 3, this->Count);
@@ -49,6 +51,8 @@ public:
   }
 
   // Returns how many points are outside of the domain.
+  // Points outside of the domain move as the nearest point of its border does. They count as
+  // outside only beyond a tolerance, as rounding may put points of the border there.
   std::int64_t Read(Progress& progress)
   {
     double* points = this->Points->GetPointer(0);
@@ -78,6 +82,9 @@ public:
     return outside;
   }
 
+  // Takes the points back along the map from the uniform measure to the density (Section 4.2), in
+  // place. Mass of the density thereby becomes uniform. The flow sorts the points, with one key
+  // each.
   FlowReport Flow(const TransportPlan<D>& plan, Progress& progress)
   {
     const PointSpan<D> points(this->Index, this->Count);
@@ -95,6 +102,8 @@ public:
   // After Flow.
   void Correct(const AreaCorrection<D>& correction, Progress& progress)
   {
+    // The corrections are found by where points were before the flow: the physical points still
+    // have it.
     const double* points = this->Points->GetPointer(0);
     progress.ForEach(this->Count, grain, [=, &correction](std::int64_t i) {
       double point[D];
@@ -107,6 +116,9 @@ public:
   // Overwrites the index coordinates in 3D.
   void Write(double blend, Progress& progress, vtkPointSet* output)
   {
+    // x becomes x + Blend (y - x), where x and y are the point before and after the flow in index
+    // space. The displacement is added to the physical point, so that points that do not move keep
+    // their bits.
     double* points = this->Points->GetPointer(0);
     double* displacements = this->Displacements->GetPointer(0);
     progress.ForEach(this->Count, grain, [=](std::int64_t i) {
@@ -145,6 +157,8 @@ private:
   double* Index;
 };
 
+// The steps of a run for a domain of D dimensions. With Blend 0 no point is advected, but the
+// output has the same point arrays.
 template <int D>
 DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputDensity& density,
   vtkPointSet* input, FlowCache& cache, Progress& progress, vtkPointSet* output)
@@ -155,8 +169,11 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   const double count = static_cast<double>(input->GetNumberOfPoints());
   const auto inputCells = static_cast<double>(moves ? input->GetNumberOfCells() : 0);
   const auto gridCells = static_cast<double>(density.Grid().NumberOfCells());
+  // The correction is made for errors of the flow with just these options.
   const FlowOptions options =
     equalizes ? AreaCorrection<D>::OptionsFor(settings.Flow) : settings.Flow;
+  // Weights are estimated nanoseconds: numbers of points, of grid cells and of vtkCells times the
+  // cost of each.
   Stages stages(progress,
     { { "tables", Cost::tables(cache, density) }, { "reading", Cost::Seed * count },
       { "optimal map", Cost::optimal(cache, density, optimal) },
@@ -165,6 +182,7 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
       { "correction", equalizes ? Cost::Seed * count : 0.0 },
       { "cost", optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0 },
       { "write", Cost::Seed * count }, { "inverted cells", Cost::TurnedCell * inputCells } });
+  // Memory for the points is taken before the tables, which take longer.
   WarpedPoints<D> points(density.Grid(), input);
   const FlowTables tables = requireTables(chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Backward, count, false,
@@ -184,6 +202,8 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     report.Transport = TransportReport(plan);
     report.Flow = points.Flow(plan, stages["points"]);
     std::shared_ptr<const AreaCorrection<D>> correction;
+    // A rank without points needs no correction, which is not collective, except for the cost of
+    // the map.
     if (equalizes && (input->GetNumberOfPoints() > 0 || plan.Certificate()))
     {
       correction = cache.Correction<D>(plan, optimal, options, stages["areas"]);
@@ -194,6 +214,8 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     {
       const std::string purpose = "the images of " +
         std::to_string(density.Grid().NumberOfCells()) + " cells (" + optimal.Advice() + ")";
+      // The cost is a sum over the centres of all cells of the density, of which each rank moves
+      // its layers.
       const auto images = layersOf<D>(plan.Size(), progress.Group()).Count();
       const MemoryPlan memory{ purpose, static_cast<double>(images) * D * sizeof(double) };
       const double cost = withRequiredMemory(memory, [&]() {
@@ -205,11 +227,13 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
     }
   }
   points.Write(settings.Blend, stages["write"], output);
+  // Collective: ranks without points agree on the passes with those that have some.
   report.IsUncorrected =
     equalizes && addEqualAreas(output, progress.Group(), passes, report.Flow) == 0;
   addSteps(output, { report.Flow });
   if (moves)
   {
+    // Cells of the input turn over where the map folds between points; the caller warns of them.
     report.Cells = countInvertedCells(density.Grid(), input, output, stages["inverted cells"]);
   }
   return report;
