@@ -306,6 +306,8 @@ void requireReadableCells(vtkDataSet* data, const std::string& name)
   }
   else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
   {
+    // A structured grid has no ids, but must have a point for each place of its extent. Images have
+    // neither points nor coordinates to check.
     int size[3];
     structured->GetDimensions(size);
     requirePlaces(std::int64_t{ size[0] } * size[1] * size[2], points, name);
