@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the libraries without VTK have in common: those of Filters/Core and Filters/Surfaces.
+# What the libraries without VTK have in common: those of Filters/Core, Surfaces and Devices.
 include("${CMAKE_CURRENT_LIST_DIR}/RectifiedTransportCompiler.cmake")
 
 # Those that an exported target names are found by its package:

@@ -3,7 +3,7 @@
 
 # The mathematics comes first: with it where this project is built, here where VTK builds the modules.
 get_filename_component(filters "${CMAKE_CURRENT_LIST_DIR}/../Filters" ABSOLUTE)
-foreach (library IN ITEMS Core Surfaces)
+foreach (library IN ITEMS Core Surfaces Devices)
   if (NOT TARGET RectifiedTransport${library})
     add_subdirectory("${filters}/${library}" "${CMAKE_CURRENT_BINARY_DIR}/${library}")
   endif ()

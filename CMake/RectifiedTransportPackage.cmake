@@ -3,8 +3,11 @@
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_BINARY_DIR}/${cmake_destination}")
-set(components Core Surfaces)
-foreach (component IN LISTS components)
+set(libraries Core Surfaces)
+if (TARGET RectifiedTransportDevices)
+  list(APPEND libraries Devices)
+endif ()
+foreach (component IN LISTS libraries)
   export(
     EXPORT RectifiedTransport${component}
     NAMESPACE RectifiedTransport::
@@ -26,6 +29,7 @@ endif ()
 if (core_links MATCHES "OpenMP::")
   string(APPEND core_dependencies "find_dependency(OpenMP COMPONENTS CXX)\n")
 endif ()
+set(components ${libraries})
 if (RectifiedTransport_BUILD_VTK)
   list(APPEND components VTK)
 endif ()

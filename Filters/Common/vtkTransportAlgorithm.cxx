@@ -6,8 +6,8 @@
 #include "Bridge/Run/Settings/FlowSettings.h"
 #include "Bridge/Run/Settings/OptimalSettings.h"
 #include "Bridge/Run/Settings/TableSettings.h"
-#include "Core/Device/SharedDevices.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Devices/SharedDevices.h"
 
 #include "vtkNew.h"
 #include "vtkStringArray.h"
@@ -119,7 +119,7 @@ DeviceUse vtkTransportAlgorithm::BeginDevice()
   if (this->Device != DEVICE_OPENCL || !serves)
   {
     this->OwnDevice->Kept.Release();
-    return DeviceUse(std::shared_ptr<RectifiedTransport::Device>());
+    return DeviceUse(std::shared_ptr<FlowDevice>());
   }
   // Ranks that run by themselves cannot ask each other for their machines.
   const Ranks& ranks = this->GetRanks();

@@ -2,12 +2,12 @@
 // The kernels that make the list of the particles that are left after a pass.
 #include "Bits.h"
 
-#include "Core/Device/Device.h"
 #include "Core/Device/DeviceUse.h"
-#include "Core/Flow/Devices/DeviceTables.h"
-#include "Core/Flow/Devices/FlowPrograms.h"
 #include "Core/Flow/Kernels/SharedInputs.h"
 #include "Core/Flow/Particles/Compaction.h"
+#include "Devices/Device.h"
+#include "Devices/DeviceTables.h"
+#include "Devices/FlowPrograms.h"
 
 #include <random>
 #include <vector>
@@ -115,7 +115,7 @@ void compareCompaction(const std::shared_ptr<Device>& device, bool isQuick, Bits
       const Compacted right = onProcessor(status, list);
       Compacted found;
       DeviceUse use(device);
-      if (!use.Run([&](Device& opened) { found = onDevice(opened, status, list); }))
+      if (!use.Run([&]() { found = onDevice(*device, status, list); }))
       {
         table.AddFault("compaction", what, use.Fault());
         continue;

@@ -5,9 +5,9 @@
 #include "Machine.h"
 #include "Times.h"
 
-#include "Core/Device/Device.h"
-#include "Core/Flow/Devices/FlowPrograms.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Devices/Device.h"
+#include "Devices/FlowPrograms.h"
 
 #include <chrono>
 #include <cstdio>
@@ -134,7 +134,7 @@ int report(Choice choice)
   std::shared_ptr<Device> device;
   try
   {
-    device = openDevice(choice.Device);
+    device = std::static_pointer_cast<Device>(openDevice(choice.Device));
   }
   catch (const DeviceError& error)
   {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Machine.h"
 
-#include "Core/Device/Device.h"
-#include "Core/Device/DeviceCheck.h"
 #include "Core/Parallel/Executor.h"
 #include "Core/Parallel/InstructionSet.h"
+#include "Devices/Device.h"
+#include "Devices/DeviceCheck.h"
 
 #include <cstdio>
 #include <fstream>

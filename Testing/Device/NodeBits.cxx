@@ -3,13 +3,13 @@
 #include "Bits.h"
 #include "ReportInputs.h"
 
-#include "Core/Device/Device.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Flow/AdvectionJob.h"
-#include "Core/Flow/Devices/DeviceAdvection.h"
+#include "Core/Flow/Devices/FlowOnDevices.h"
 #include "Core/Flow/FlowMap.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
+#include "Devices/Device.h"
 
 namespace RectifiedTransport
 {
@@ -73,7 +73,7 @@ void compareMaps(const std::shared_ptr<Device>& device, BitsTable& table, const 
 {
   Progress work{ Context() };
   const SummedAreaTables<Dimension> tables(density.Source(), work);
-  DeviceFlow<Dimension> onDevice;
+  FlowOnDevices<Dimension> devices;
   for (const AdvectionKind kind : { AdvectionKind::Forward, AdvectionKind::Backward })
   {
     const bool backward = kind == AdvectionKind::Backward;
@@ -88,7 +88,8 @@ void compareMaps(const std::shared_ptr<Device>& device, BitsTable& table, const 
     const FlowMap<Dimension> right(shape, job.Job, Context());
     DeviceUse use(device);
     const std::uint64_t before = device->Work().Kernels;
-    const auto nodes = onDevice.BeginNodes(use, job);
+    const auto flow = devices.On(&use);
+    const auto nodes = flow->BeginNodes(use, job);
     const FlowMap<Dimension> found(shape, job.Job, Context(), nodes);
     if (!use.Serves() || device->Work().Kernels == before)
     {

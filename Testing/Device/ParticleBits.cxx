@@ -3,14 +3,15 @@
 #include "Bits.h"
 #include "ReportInputs.h"
 
-#include "Core/Device/Device.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Flow/AdvectionRun.h"
-#include "Core/Flow/Devices/DeviceTables.h"
-#include "Core/Flow/Devices/FlowPrograms.h"
-#include "Core/Flow/Devices/KernelRun.h"
+#include "Core/Flow/Devices/FlowOnDevices.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
+#include "Devices/Device.h"
+#include "Devices/DeviceTables.h"
+#include "Devices/FlowPrograms.h"
+#include "Devices/KernelRun.h"
 
 #include <array>
 #include <numeric>
@@ -232,7 +233,11 @@ private:
       {
         run.UseMap(runs.Of, false);
       }
-      run.UseDevice(this->OnDevice);
+      const auto flow = this->Devices.On(context.Device);
+      if (flow)
+      {
+        run.UseDevice(*flow);
+      }
       return run.Advect(source, positions);
     };
     runs.OfProcessor = advect(Context(), runs.Processor);
@@ -268,7 +273,7 @@ private:
   const TestDensity<Dimension> Density;
   Progress Work;
   const SummedAreaTables<Dimension> Tables;
-  DeviceFlow<Dimension> OnDevice;
+  FlowOnDevices<Dimension> Devices;
 };
 
 // The places of the particles of a lattice.
@@ -403,10 +408,10 @@ void compareWrong(const std::shared_ptr<Device>& device)
   BitsTable::Print("-", "a bit that was changed: 1 differs", compare<2>(seeds, found, right));
 
   DeviceUse use(device);
-  use.Run([&](Device& opened) {
-    const DeviceProgram program = buildFlowProgram(opened, 2, "-D RT_WITH_CONTRACTION");
-    KernelRun<2> run(opened, program, job,
-      std::make_shared<const DeviceTables<2>>(opened, tables.View()), nullptr,
+  use.Run([&]() {
+    const DeviceProgram program = buildFlowProgram(*device, 2, "-D RT_WITH_CONTRACTION");
+    KernelRun<2> run(*device, program, job,
+      std::make_shared<const DeviceTables<2>>(*device, tables.View()), nullptr,
       std::make_shared<DeviceWeights>());
     run.Run(static_cast<std::int64_t>(found.size()), run.FromPoints(seeds.data()->data()),
       found.data()->data(), work);

@@ -3,12 +3,12 @@
 #include "Bits.h"
 #include "ReportInputs.h"
 
-#include "Core/Device/Device.h"
 #include "Core/Device/DeviceUse.h"
-#include "Core/Flow/Devices/DeviceTables.h"
-#include "Core/Flow/Devices/FlowPrograms.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
+#include "Devices/Device.h"
+#include "Devices/DeviceTables.h"
+#include "Devices/FlowPrograms.h"
 
 namespace RectifiedTransport
 {
@@ -63,15 +63,15 @@ void compareTablesOf(const std::shared_ptr<Device>& device, BitsTable& table,
   std::vector<double> found(static_cast<std::size_t>(count));
   const std::string what = name + " " + nameOf<Dimension>(density.Size);
   DeviceUse use(device);
-  const bool isDone = use.Run([&](Device& opened) {
-    const DeviceTables<Dimension> made(opened, flowProgram(opened, Dimension), view,
-      upload(opened, density.Values.data(), static_cast<std::int64_t>(density.Values.size()),
+  const bool isDone = use.Run([&]() {
+    const DeviceTables<Dimension> made(*device, flowProgram(*device, Dimension), view,
+      upload(*device, density.Values.data(), static_cast<std::int64_t>(density.Values.size()),
         "the values"));
     const double* const coarse =
       view.LevelCount > 1 ? view.Levels[1].Nodes : endOfNodes<Dimension>(view);
     const auto fine = static_cast<std::size_t>(coarse - view.Levels[0].Nodes);
-    opened.Read(made.Fine, found.data(), fine * sizeof(double));
-    opened.Read(made.Coarse, found.data() + fine, (found.size() - fine) * sizeof(double));
+    device->Read(made.Fine, found.data(), fine * sizeof(double));
+    device->Read(made.Coarse, found.data() + fine, (found.size() - fine) * sizeof(double));
   });
   if (!isDone)
   {

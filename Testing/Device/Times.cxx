@@ -2,10 +2,10 @@
 #include "Times.h"
 #include "ReportInputs.h"
 
-#include "Core/Device/Device.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Seeds/Seeds.h"
+#include "Devices/Device.h"
 
 #include <algorithm>
 #include <chrono>

@@ -52,7 +52,7 @@ class Budgets(unittest.TestCase):
 
     def test_names_in_programs_of_tests(self):
         """Each folder is one program, or few, that contain the sources, too."""
-        for folder in ("Core", "Surfaces", "Cxx", "Campaign", "Benchmarks", "Device"):
+        for folder in ("Core", "Surfaces", "Devices", "Cxx", "Campaign", "Benchmarks", "Device"):
             self.assertEqual(doubled_names(Tree(), ["Testing/" + folder]), [])
 
 

@@ -12,9 +12,9 @@ import sys
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 CODE = (".h", ".hxx", ".cxx", ".txx", ".cl")
 BRIDGE = "Filters/Bridge/"
-MATHEMATICS = ("Filters/Core/", "Filters/Surfaces/")
+MATHEMATICS = ("Filters/Core/", "Filters/Surfaces/", "Filters/Devices/")
 # Sources of which the build takes one or the other.
-ALTERNATIVES = ("Filters/Core/Device/WithoutOpenCL.cxx",)
+ALTERNATIVES = ("Filters/Devices/WithoutDevices.cxx",)
 LONGER_PAGES = ("Documentation/Contributing.md", "Documentation/Speed.md")
 
 Figure = collections.namedtuple("Figure", ["count", "advice"])

@@ -6,6 +6,9 @@ file(REMOVE_RECURSE "${WORK}")
 install_and_move("${BUILD}" "${VTK}") # the one outside place that it has to know
 
 set(ours vtkRectifiedTransportCommon vtkRectifiedTransportDensities RectifiedTransportCore)
+if (EXISTS "${WORK}/moved/include/RectifiedTransport/Devices")
+  list(APPEND ours RectifiedTransportDevices)
+endif ()
 foreach (example IN ITEMS Downstream LiveStippling StippleImage)
   build_against_moved("Examples/${example}" "${example}")
   check_loaded("${WORK}/${example}/${example}" ${ours})

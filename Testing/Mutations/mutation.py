@@ -29,4 +29,5 @@ def X(file, right, wrong):
 
 CORE = "Filters/Core/"
 SURFACES = "Filters/Surfaces/"
+DEVICES = "Filters/Devices/"
 BRIDGE = "Filters/Bridge/"

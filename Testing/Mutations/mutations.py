@@ -3,7 +3,7 @@
 import importlib
 import pathlib
 
-from mutation import BRIDGE, CORE, E, S, SURFACES, X
+from mutation import BRIDGE, CORE, DEVICES, E, S, SURFACES, X
 
 # These once passed all tests.
 SURVIVED = [
@@ -337,32 +337,32 @@ OTHERS = [
     S(CORE + "Equalize/AreaProjection.h", "this->Lattice.KeepOnSides(cornerRow, row.After);", ";"),
     E(CORE + "Flow/Steps/StepWarning.cxx", "if (!(flow.AreaError > «options.AreaTolerance»))", "10.0"),
     # devices
-    S(CORE + "Device/Device.cxx", "this->Taken += bytes;", ";"),
-    E(CORE + "Device/Device.cxx", "i < counted ? «(static_cast<std::size_t>(number) + i) % counted» : i",
+    S(DEVICES + "Device.cxx", "this->Taken += bytes;", ";"),
+    E(DEVICES + "Device.cxx", "i < counted ? «(static_cast<std::size_t>(number) + i) % counted» : i",
       "i"),
     S(CORE + "Device/DeviceUse.cxx", "this->Opened->MarkLost();", ";"),
     E(CORE + "Flow/AdvectionRun.h", "if («source.WholeLattice()»)", "false"),
-    E(CORE + "Flow/Devices/DeviceFlow.cxx", "map && «cached.Of.lock() != map»", "!cached.Copy"),
-    E(CORE + "Flow/Devices/DeviceFlow.cxx", "«this->Where.lock().get() != &device»", "false"),
-    S(CORE + "Flow/Devices/DeviceFlow.cxx", "counts.MovedToMass += moved.MovedToMass;", ";"),
-    E(CORE + "Flow/Devices/KernelRun.cxx", "cl_int{ «lastPass < this->Job.LastPass()» ? 1 : 0 }", "true"),
-    E(CORE + "Flow/Devices/KernelRun.cxx", "report.Redone += «lastPass == 0 ? left : 0»;", "0"),
-    E(CORE + "Flow/Devices/KernelRun.cxx", "static_cast<std::uint32_t>(first) + «particle»", "0"),
-    S(CORE + "Flow/Devices/KernelRun.cxx", "toDevice[set].Wait();", ";"),
-    E(CORE + "Flow/Devices/Kernels/Advect.cl", "pass <= lastPass && «isLeft»;", "1"),
-    E(CORE + "Flow/Devices/Kernels/Advect.cl", "kept[place] = «isListed ? list[i] : i»;", "i"),
-    E(CORE + "Flow/Devices/Kernels/Advect.cl", "uint place = «(uint)counts[get_group_id(0)].Unresolved»;",
+    E(DEVICES + "OpenCLFlow.cxx", "map && «cached.Of.lock() != map»", "!cached.Copy"),
+    E(CORE + "Flow/Devices/FlowOnDevices.h", "«this->Where.lock() != device»", "false"),
+    S(DEVICES + "OpenCLFlow.cxx", "counts.MovedToMass += moved.MovedToMass;", ";"),
+    E(DEVICES + "KernelRun.cxx", "cl_int{ «lastPass < this->Job.LastPass()» ? 1 : 0 }", "true"),
+    E(DEVICES + "KernelRun.cxx", "report.Redone += «lastPass == 0 ? left : 0»;", "0"),
+    E(DEVICES + "KernelRun.cxx", "static_cast<std::uint32_t>(first) + «particle»", "0"),
+    S(DEVICES + "KernelRun.cxx", "toDevice[set].Wait();", ";"),
+    E(DEVICES + "Kernels/Advect.cl", "pass <= lastPass && «isLeft»;", "1"),
+    E(DEVICES + "Kernels/Advect.cl", "kept[place] = «isListed ? list[i] : i»;", "i"),
+    E(DEVICES + "Kernels/Advect.cl", "uint place = «(uint)counts[get_group_id(0)].Unresolved»;",
       "0"),
-    E(CORE + "Flow/Devices/Kernels/Advect.cl", "x[axis] = (cell + «lattice.Place[axis]»)", "0.5"),
-    E(CORE + "Flow/Devices/Kernels/Nodes.cl", "int parent = «(int)levelCount - 1»;", "(int)levelCount - 2"),
-    E(CORE + "Flow/Devices/Kernels/Nodes.cl", "marks[i] = «s.IsUnresolved ? 1 : 0»;", "0"),
-    E(CORE + "Flow/Devices/Kernels/Tables.cl", "(double4)(1.0, 1.0, 1.0, «(double)k + 0.5»)", "(double)k"),
-    E(CORE + "Flow/Devices/Kernels/Tables.cl", "«min(j << shift, s.Cells[1])» *",
+    E(DEVICES + "Kernels/Advect.cl", "x[axis] = (cell + «lattice.Place[axis]»)", "0.5"),
+    E(DEVICES + "Kernels/Nodes.cl", "int parent = «(int)levelCount - 1»;", "(int)levelCount - 2"),
+    E(DEVICES + "Kernels/Nodes.cl", "marks[i] = «s.IsUnresolved ? 1 : 0»;", "0"),
+    E(DEVICES + "Kernels/Tables.cl", "(double4)(1.0, 1.0, 1.0, «(double)k + 0.5»)", "(double)k"),
+    E(DEVICES + "Kernels/Tables.cl", "«min(j << shift, s.Cells[1])» *",
       "min(j << shift, s.Cells[1] - 1)"),
     S(CORE + "Flow/Kernels/Shared/Particle.h", "s->IsUnresolved |= !isInMass(tables, s->End);", ";"),
     E(CORE + "Flow/Kernels/Shared/Particle.h", "input->HasEmptyCells && «3 * step >= steps»", "1"),
     E(CORE + "Flow/Kernels/Shared/Particle.h", "box->IsVoid > 0.0 && «!input->Backward» ?", "1"),
-    E(CORE + "Device/SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
+    E(DEVICES + "SharedDevices.cxx", "this->Opened && «name == this->Name»", "true"),
     E("Filters/Common/vtkTransportAlgorithm.cxx", "«first != all.end()»)", "false"),
     # optimal maps
     S(CORE + "OptimalMap/PointMap.cxx", "smoothMap(this->There, progress);", ";"),

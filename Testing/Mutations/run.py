@@ -33,7 +33,7 @@ inline int {SWITCH} = {SWITCH}_read();
 #endif
 """
 # Devices compile texts at run time: they get the switch as an option of their compilers.
-DEVICE_OPTIONS = ("Filters/Core/Flow/Devices/FlowPrograms.cxx", '"-cl-std=CL1.2 -D RT_D="',
+DEVICE_OPTIONS = ("Filters/Devices/FlowPrograms.cxx", '"-cl-std=CL1.2 -D RT_D="',
                   f'"-cl-std=CL1.2 -D {SWITCH}=" + std::to_string({SWITCH}) + " -D RT_D="')
 # Which tests come first: whether only those near the change, and how many seconds they may take.
 ORDER = [(True, 2), (True, 20), (False, 2), (True, math.inf), (False, 20), (False, math.inf)]
@@ -174,7 +174,7 @@ class Tests:
         rooms = pathlib.Path(file).parent.parts[2:]
         word = re.compile(rf"\b{pathlib.Path(file).stem}\b")
         names = {f"Test{room}\\w*" for room in rooms}
-        for path in [*self.source.glob("Testing/[CS]*/**/Test*.cxx"),
+        for path in [*self.source.glob("Testing/[CDS]*/**/Test*.cxx"),
                      *self.source.glob("Testing/Python/*/Test*.py")]:
             text = path.read_text()
             if word.search(text) or set(rooms) & set(path.parent.parts):
@@ -184,7 +184,7 @@ class Tests:
     def groups(self, file):
         """Lists of numbers: what is near the change and what is quick comes first."""
         near = self.near(file)
-        inside = file.startswith(("Filters/Core/", "Filters/Surfaces/"))
+        inside = file.startswith(("Filters/Core/", "Filters/Surfaces/", "Filters/Devices/"))
         left = [test for test in self.found if inside or not test[1].startswith("core.")]
         for closest, longest in ORDER:
             group = [test for test in left if test[2] < longest and (not closest or near(test[1]))]

@@ -15,7 +15,6 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 PACKAGE = "rectifiedtransport"
-LIBRARIES = ("Core", "Surfaces")
 MODULES = ("Common", "Densities", "Drawing", "Meshes")
 OPTIONS = None
 
@@ -65,8 +64,7 @@ class Content(unittest.TestCase):
         allowed = ["usr/include/RectifiedTransport/", self.documents + "/",
                    os.path.join(self.libraries, "cmake/RectifiedTransport/"),
                    os.path.join(self.libraries, "vtk/hierarchy/RectifiedTransport/"),
-                   os.path.join(self.libraries, "libRectifiedTransportCore."),
-                   os.path.join(self.libraries, "libRectifiedTransportSurfaces."),
+                   *(os.path.join(self.libraries, "libRectifiedTransport%s." % name) for name in OPTIONS.libraries),
                    os.path.join(self.libraries, "libvtkRectifiedTransport")]
         if OPTIONS.python_dir:
             allowed.append(os.path.join("usr", OPTIONS.python_dir, "rectifiedtransport/"))
@@ -138,13 +136,14 @@ class Content(unittest.TestCase):
             self.assertTrue({"postinst", "prerm"} <= set(self.control))
 
     def test_development(self):
-        """Headers and libraries of Core and Surfaces, and of the filters where they were built, and the CMake
+        """Headers and libraries of the mathematics, and of the filters where they were built, and the CMake
         package."""
         cmake = os.path.join(self.libraries, "cmake/RectifiedTransport")
         self.assertIn('PACKAGE_VERSION "%s"' % OPTIONS.version,
                       self.text(cmake, "RectifiedTransportConfigVersion.cmake"))
-        targets = [self.text(cmake, "RectifiedTransport%s-targets.cmake" % name) for name in LIBRARIES]
-        expected = {"Core/Flow/RectifiedFlow.h", "Core/Seeds/Seeds.h", "Surfaces/Mesh/DiskMesh.h"}
+        targets = [self.text(cmake, "RectifiedTransport%s-targets.cmake" % name) for name in OPTIONS.libraries]
+        headers = {"Core": "Flow/RectifiedFlow.h", "Surfaces": "Mesh/DiskMesh.h", "Devices": "DeviceList.h"}
+        expected = {os.path.join(name, headers[name]) for name in OPTIONS.libraries}
         if os.path.join(cmake, "RectifiedTransport-targets.cmake") in self.files:
             targets.append(self.text(cmake, "RectifiedTransport-targets.cmake"))
             expected |= {os.path.basename(path) for path in glob.glob(
@@ -156,7 +155,7 @@ class Content(unittest.TestCase):
             self.assertFalse(OPTIONS.plugin_dir or OPTIONS.python_dir)
         for header in expected:
             self.assertIn(os.path.join("usr/include/RectifiedTransport", header), self.files)
-        for name in LIBRARIES:
+        for name in OPTIONS.libraries:
             self.assertIn("RectifiedTransport::" + name, "".join(targets))
             self.assertTrue([path for path in self.files if os.path.join(
                 self.libraries, "libRectifiedTransport%s." % name) in path])
@@ -198,7 +197,8 @@ class Content(unittest.TestCase):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    for option in ("cpack", "source", "build", "version", "library-dir", "python-dir", "plugin-dir"):
+    for option in ("cpack", "source", "build", "version", "libraries", "library-dir", "python-dir", "plugin-dir"):
         parser.add_argument("--" + option, required=True)
     OPTIONS = parser.parse_args()
+    OPTIONS.libraries = OPTIONS.libraries.split(",")
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Device/DeviceUse.h"
 
-#include "Core/Device/Device.h"
+#include "Core/Device/DeviceError.h"
+#include "Core/Device/FlowDevice.h"
 
 #include <chrono>
 #include <mutex>
@@ -9,23 +10,9 @@
 namespace RectifiedTransport
 {
 
-// A fault is no error of the run: it is kept as the reason, and processors do the work.
-DeviceUse DeviceUse::Open(const std::string& name)
-{
-  try
-  {
-    return DeviceUse(openDevice(name));
-  }
-  catch (const DeviceError& error)
-  {
-    return DeviceUse(std::string(error.what()));
-  }
-}
-
 // Runs take turns on a device. A run that waits polls for an abort every 20 ms, below what a user
 // notices.
-bool DeviceUse::Run(
-  const std::function<void(Device&)>& function, const std::function<bool()>& shouldStop)
+bool DeviceUse::Run(const std::function<void()>& function, const std::function<bool()>& shouldStop)
 {
   if (!this->Serves())
   {
@@ -45,9 +32,9 @@ bool DeviceUse::Run(
     if (this->Opened->IsLost())
     {
       // Another run may have lost the device while this one waited.
-      throw DeviceError("The device '" + this->Opened->Description().Name + "' was lost");
+      throw DeviceError("The device '" + this->Opened->Name() + "' was lost");
     }
-    function(*this->Opened);
+    function();
     return true;
   }
   // A lost device serves no run any more; after other errors it may serve the next one.
@@ -61,11 +48,6 @@ bool DeviceUse::Run(
     this->Reason = error.what();
   }
   return false;
-}
-
-bool isLost(const Device& device)
-{
-  return device.IsLost();
 }
 
 } // namespace RectifiedTransport

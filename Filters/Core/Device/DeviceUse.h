@@ -11,16 +11,15 @@
 namespace RectifiedTransport
 {
 
-class Device;
+class FlowDevice;
 
 // The use of a device by one run, on one thread; a device may serve many runs. The processor does
-// what the device does
-// not do, with the same bits.
+// what the device does not do, with the same bits.
 class DeviceUse
 {
 public:
-  // An open device (DeviceList.h).
-  explicit DeviceUse(std::shared_ptr<Device> device)
+  // An open device (Devices/DeviceList.h).
+  explicit DeviceUse(std::shared_ptr<FlowDevice> device)
     : Opened(std::move(device))
   {
   }
@@ -29,27 +28,23 @@ public:
     : Reason(std::move(fault))
   {
   }
-  // The device that openDevice finds, or none.
-  static DeviceUse Open(const std::string& name);
 
   // Whether there is a device that has not failed in this run.
   bool Serves() const { return this->Opened && this->Reason.empty(); }
   // Why it does not serve, or not any more: names the device. Empty if nothing went wrong.
   const std::string& Fault() const { return this->Reason; }
+  // The device, as long as it serves; else null.
+  std::shared_ptr<FlowDevice> Device() const { return this->Serves() ? this->Opened : nullptr; }
 
-  // function(device), when no other thread uses the device, unless shouldStop(), which is polled
+  // function(), when no other thread uses the device, unless shouldStop(), which is polled
   // meanwhile, returns true. Returns whether it was done: a DeviceError becomes the fault. Throws
   // what else the function throws.
-  bool Run(
-    const std::function<void(Device&)>& function, const std::function<bool()>& shouldStop = {});
+  bool Run(const std::function<void()>& function, const std::function<bool()>& shouldStop = {});
 
 private:
-  std::shared_ptr<Device> Opened;
+  std::shared_ptr<FlowDevice> Opened;
   std::string Reason;
 };
-
-// Whether a device failed while it worked: it is of no use any more.
-bool isLost(const Device& device);
 
 } // namespace RectifiedTransport
 

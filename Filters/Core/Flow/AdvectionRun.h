@@ -6,7 +6,7 @@
 
 #include "Core/Flow/AdvectionCounters.h"
 #include "Core/Flow/AdvectionJob.h"
-#include "Core/Flow/Devices/DeviceAdvection.h"
+#include "Core/Flow/Devices/DeviceFlow.h"
 #include "Core/Flow/FlowMap.h"
 #include "Core/Flow/Particles/Compaction.h"
 #include "Core/Flow/Particles/ParticleSource.h"
@@ -160,12 +160,9 @@ public:
   }
 
   // The device that does what Advect without times asks for, as long as it serves.
-  void UseDevice(DeviceFlow<Dimension>& kept)
+  void UseDevice(DeviceFlow<Dimension>& flow)
   {
-    if (this->Work.Device())
-    {
-      this->OnDevice = kept.Begin(*this->Work.Device(), this->Shared, this->Map, this->Work);
-    }
+    this->OnDevice = flow.Begin(*this->Work.Device(), this->Shared, this->Map, this->Work);
   }
 
   // Advects the particles of a source chunk by chunk. Writes the positions at the ascending times,

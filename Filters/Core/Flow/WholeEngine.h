@@ -4,7 +4,7 @@
 #define RectifiedTransport_WholeEngine_h
 
 #include "Core/Flow/AdvectionRun.h"
-#include "Core/Flow/Devices/DeviceAdvection.h"
+#include "Core/Flow/Devices/FlowOnDevices.h"
 #include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/FlowMapCache.h"
 #include "Core/Flow/Particles/ParticleSource.h"
@@ -30,10 +30,10 @@ public:
     : Size(density.Size)
     , Tables(density, progress, std::move(memory))
   {
-    if (progress.Device())
+    if (const auto flow = this->Devices.On(progress.Device()))
     {
       // A device sums its own tables from the values, which are less to transfer.
-      this->OnDevice.MakeTables(*progress.Device(), density, this->Tables, progress);
+      flow->MakeTables(*progress.Device(), density, this->Tables, progress);
     }
   }
 
@@ -48,9 +48,10 @@ public:
   {
     ParticleSource<Dimension> source(seeds, this->Size, positions.size());
     return this->Run(kind, source, 1.0, options, context, [&](AdvectionRun<Dimension>& run) {
-      if (DeviceFlow<Dimension>::Serves(kind, options))
+      const auto flow = this->Devices.On(context.Device);
+      if (flow && flow->Serves(kind, options))
       {
-        run.UseDevice(this->OnDevice);
+        run.UseDevice(*flow);
       }
       return run.Advect(source, positions);
     });
@@ -124,8 +125,9 @@ private:
     {
       map = this->Maps.FindOrMake(*shape, shared.Refinement, *context.Group, [&]() {
         isNew = true;
-        const auto nodes = context.Device ? this->OnDevice.BeginNodes(*context.Device, shared)
-                                          : DeviceNodes<Dimension>();
+        const auto flow = this->Devices.On(context.Device);
+        const auto nodes =
+          flow ? flow->BeginNodes(*context.Device, shared) : DeviceNodes<Dimension>();
         return std::make_shared<const FlowMap<Dimension>>(*shape, shared.Job, stages["map"], nodes);
       });
     }
@@ -160,7 +162,7 @@ private:
   const GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
   FlowMapCache<Dimension> Maps;
-  DeviceFlow<Dimension> OnDevice;
+  FlowOnDevices<Dimension> Devices;
 };
 
 } // namespace RectifiedTransport

@@ -43,6 +43,7 @@ SURFACES = {  # of Surfaces, and of Core; besides Messages, which all may includ
     "SurfaceSampling": ({"Mesh", "Parameterization"},
                         {"Parallel", "Geometry", "Tables", "Flow", "Seeds"}),
 }
+DEVICES = {"Parallel", "Device", "Geometry", "Tables", "Flow"}  # of Core
 # Of the folders within OptimalMap: those there, and of Core.
 OPTIMAL_MAP = {
     "Nodes": (set(), {"Parallel", "Geometry", "Grid"}),
@@ -107,9 +108,25 @@ class Includes(unittest.TestCase):
     def test_surfaces(self):
         self.check("Surfaces", {room: rooms for room, (rooms, _) in SURFACES.items()})
         self.check("Surfaces", {room: rooms for room, (_, rooms) in SURFACES.items()}, "Core")
-        for path, text in sources("Core", "**", "*"):
-            self.assertEqual([name for name in included(path, text) if name.startswith("Surfaces/")], [],
-                             path)
+
+    def test_devices(self):
+        rooms = set()
+        for path, text in sources("Devices", "*"):
+            for name in included(path, text):
+                self.assertRegex(name, "^(Core|Devices)/", path)
+                rooms |= set(re.findall("^Core/(\\w+)/", name))
+        self.assertLessEqual(rooms, DEVICES)
+        # Only the base of the filters knows of them.
+        self.assertEqual(self.outside('#include "Devices/', os.path.join("Devices", "")),
+                         [os.path.join("Common", "vtkTransportAlgorithm.cxx")])
+
+    def test_libraries(self):
+        """Of the mathematics, Core is below Surfaces and Devices; only the latter know OpenCL."""
+        for library, others in (("Core", "Surfaces|Devices"), ("Surfaces", "Devices")):
+            for path, text in sources(library, "**", "*"):
+                for name in included(path, text):
+                    self.assertNotRegex(name, "^(%s)/" % others, path)
+        self.assertEqual(self.outside("#include <CL/", os.path.join("Devices", "")), [])
 
     def test_optimal_map(self):
         for room, (rooms, folders) in OPTIMAL_MAP.items():
@@ -173,17 +190,17 @@ class Includes(unittest.TestCase):
         """What was computed is kept and shared in one place, and compared in one way. Devices are no
         results; the others hash what they read for DataIdentity."""
         self.assertEqual(self.outside(r"\bweak_ptr\b", *(os.path.join(*place) for place in (
-            ("Bridge", "Store", ""), ("Core", "Device", ""), ("Core", "Flow", "Devices", "")))), [])
+            ("Bridge", "Store", ""), ("Core", "Flow", "Devices", ""), ("Devices", "")))), [])
         self.assertEqual(self.outside(r"\bfingerprint\(", *(os.path.join("Bridge", place, "")
                                                           for place in ("Store", "Run", "Density"))), [])
 
     def test_relative_paths(self):
-        """Public headers of Core and Surfaces include each other by them, where no other project's folder
+        """Public headers of the mathematics include each other by them, where no other project's folder
         Core can come in between; all others name the path from Filters."""
         public = set()
-        for library in ("Core", "Surfaces"):
+        for library in ("Core", "Surfaces", "Devices"):
             with open(os.path.join(FILTERS, library, "CMakeLists.txt"), encoding="utf-8") as file:
-                listed = re.search(r"^set\(public_headers\n(.*?)\)$", file.read(), re.MULTILINE | re.DOTALL)
+                listed = re.search(r"^ *set\(public_headers\n(.*?)\)$", file.read(), re.MULTILINE | re.DOTALL)
             public |= {os.path.join(library, header) for header in listed.group(1).split()}
         self.assertGreater(len(public), 70)
         for path, text in sources("**", "*"):
@@ -201,7 +218,7 @@ class Includes(unittest.TestCase):
                 self.assertNotIn('"Core/Transport', text, path)
 
     def test_mathematics_knows_neither_vtk_nor_bridge(self):
-        for library in ("Core", "Surfaces"):
+        for library in ("Core", "Surfaces", "Devices"):
             for path, text in sources(library, "**", "*"):
                 self.assertNotRegex(text, r'#include [<"](vtk|Bridge/)', path)
 
@@ -220,7 +237,7 @@ class Includes(unittest.TestCase):
 
     def test_headers_of_filters_include_no_worker(self):
         for path, text in sources("*", "vtk*.h"):
-            for name in re.findall(r'#include "((?:Bridge|Core|Surfaces)/.*)"', text):
+            for name in re.findall(r'#include "((?:Bridge|Core|Surfaces|Devices)/.*)"', text):
                 with self.subTest(path):
                     self.assertEqual(name, "Bridge/VTKCompatibility.h")
 

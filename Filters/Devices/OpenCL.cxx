@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Device/OpenCL.h"
+#include "Devices/OpenCL.h"
 
 #include "Core/Parallel/Forks.h"
 

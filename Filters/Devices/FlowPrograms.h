@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_FlowPrograms_h
 #define RectifiedTransport_FlowPrograms_h
 
-#include "Core/Device/Device.h"
+#include "Devices/Device.h"
 
 #include <string>
 #include <vector>

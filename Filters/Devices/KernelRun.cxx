@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/Devices/KernelRun.h"
+#include "Devices/KernelRun.h"
 
 #include "Core/Flow/Kernels/SharedInputs.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/Devices/FlowPrograms.h"
+#include "Devices/FlowPrograms.h"
 
 #include "Core/Flow/AdvectionCounters.h"
 #include "Core/Flow/AdvectionRun.h"
-#include "Core/Flow/Devices/KernelRun.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
+#include "Devices/KernelRun.h"
 
 #include <cstring>
 #include <memory>

@@ -24,10 +24,10 @@ public:
   // Lets go of it.
   void Release() { this->Opened.reset(); }
 
-  std::shared_ptr<const Device> Get() const { return this->Opened; } // may be null
+  std::shared_ptr<const FlowDevice> Get() const { return this->Opened; } // may be null
 
 private:
-  std::shared_ptr<Device> Opened;
+  std::shared_ptr<FlowDevice> Opened;
   std::string Name;
   int Number = 0;
 };

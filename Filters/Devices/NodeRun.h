@@ -3,11 +3,11 @@
 #ifndef RectifiedTransport_NodeRun_h
 #define RectifiedTransport_NodeRun_h
 
-#include "Core/Device/Device.h"
-#include "Core/Flow/Devices/KernelRun.h"
 #include "Core/Flow/Kernels/LatticePlaces.h"
 #include "Core/Flow/Kernels/SharedInputs.h"
 #include "Core/Flow/NodeAdvance.h"
+#include "Devices/Device.h"
+#include "Devices/KernelRun.h"
 
 #include <algorithm>
 #include <cstddef>

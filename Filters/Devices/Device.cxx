@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Device/Device.h"
+#include "Devices/Device.h"
 
-#include "Core/Device/DeviceCheck.h"
+#include "Devices/DeviceCheck.h"
 
 #include <algorithm>
 #include <cctype>
@@ -47,8 +47,8 @@ bool hasMemoryToCompile()
 
 // See DeviceList.h: devices of the name that lack nothing are tried in order, from `number` on,
 // until one passes its self-test. The first fault is the one that is reported.
-std::shared_ptr<Device> openDevice(
-  const std::string& name, int number, const std::vector<std::shared_ptr<Device>>& open)
+std::shared_ptr<FlowDevice> openDevice(
+  const std::string& name, int number, const std::vector<std::shared_ptr<FlowDevice>>& open)
 {
   if (!hasMemoryToCompile())
   {
@@ -97,8 +97,8 @@ std::shared_ptr<Device> openDevice(
       complete[i < counted ? (static_cast<std::size_t>(number) + i) % counted : i];
     // A device stays open for all runs, as opening and testing it takes a second or so.
     const auto known =
-      std::find_if(open.begin(), open.end(), [&found](const std::shared_ptr<Device>& device) {
-        return device->Is(found) && !device->IsLost();
+      std::find_if(open.begin(), open.end(), [&found](const std::shared_ptr<FlowDevice>& device) {
+        return static_cast<const Device&>(*device).Is(found) && !device->IsLost();
       });
     if (known != open.end())
     {
@@ -119,6 +119,18 @@ std::shared_ptr<Device> openDevice(
   throw DeviceError(reason.empty()
       ? "No OpenCL device is named '" + name + "'; there are " + namesOf(devices)
       : reason);
+}
+
+DeviceUse useDevice(const std::string& name)
+{
+  try
+  {
+    return DeviceUse(openDevice(name));
+  }
+  catch (const DeviceError& error)
+  {
+    return DeviceUse(std::string(error.what()));
+  }
 }
 
 // Memory counts as taken until the driver has it back.
@@ -211,10 +223,10 @@ Device::Device(const FoundDevice& found)
   }
 }
 
-// What is kept holds buffers of this device, so it goes before the context does.
+// Flows hold buffers of this device, so they go before the context does.
 Device::~Device()
 {
-  this->Kept.clear();
+  this->Flows.clear();
   this->Programs.clear();
   this->Close();
 }
@@ -229,22 +241,15 @@ void Device::Close()
   this->Release(this->Cl.clReleaseContext, this->Context);
 }
 
-// `kept` then holds what was there before, which is destroyed after the lock.
-void Device::Keep(const void* owner, std::shared_ptr<void> kept)
-{
-  const std::lock_guard<std::mutex> lock(this->KeptMutex);
-  this->Kept[owner].swap(kept);
-}
-
 void Device::Forget(const void* owner)
 {
-  std::shared_ptr<void> kept; // destroyed after the lock: its destructor may take other locks
-  const std::lock_guard<std::mutex> lock(this->KeptMutex);
-  const auto found = this->Kept.find(owner);
-  if (found != this->Kept.end())
+  std::shared_ptr<void> flow; // destroyed after the lock: that may take a while
+  const std::lock_guard<std::mutex> lock(this->FlowsMutex);
+  const auto found = this->Flows.find(owner);
+  if (found != this->Flows.end())
   {
-    kept = std::move(found->second);
-    this->Kept.erase(found);
+    flow = std::move(found->second);
+    this->Flows.erase(found);
   }
 }
 

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_DeviceTables_h
 #define RectifiedTransport_DeviceTables_h
 
-#include "Core/Device/Device.h"
 #include "Core/Tables/TableView.h"
+#include "Devices/Device.h"
 
 #include <algorithm>
 #include <cstddef>

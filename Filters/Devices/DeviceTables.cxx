@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/Devices/DeviceTables.h"
+#include "Devices/DeviceTables.h"
 
 #include "Core/Flow/Kernels/SharedInputs.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Devices: their list, their self-test, memory, programs, and what they say when something fails.
-#include "Device/OfADevice.h"
+#include "OfADevice.h"
 
-#include "Core/Device/DeviceCheck.h"
+#include "Devices/DeviceCheck.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(DeviceList, NamesWhatThereIs)
 TEST_F(OfADevice, ByAPartOfItsName)
 {
   const std::string name = this->Opened->Description().Name;
-  EXPECT_EQ(openDevice(name.substr(1))->Description().Name, name);
+  EXPECT_EQ(openDevice(name.substr(1))->Name(), name);
   const std::string text = errorOf([]() { openDevice("no such thing"); });
   EXPECT_TRUE(contains(text, "No OpenCL device is named 'no such thing'; there are '")) << text;
   EXPECT_TRUE(contains(text, name)) << text;
@@ -49,8 +49,7 @@ TEST_F(OfADevice, ByItsNumber)
   const int count = static_cast<int>(complete.size());
   for (int number = 0; number < 2 * count + 1; ++number)
   {
-    EXPECT_EQ(openDevice("", number)->Description().Name,
-      complete[static_cast<std::size_t>(number % count)]);
+    EXPECT_EQ(openDevice("", number)->Name(), complete[static_cast<std::size_t>(number % count)]);
   }
   EXPECT_NE(openDevice(""), this->Opened);
   EXPECT_EQ(openDevice("", 0, { this->Opened }), this->Opened);
@@ -146,7 +145,7 @@ TEST_F(OfADevice, SeveralAtOnce)
   for (std::size_t i = 0; i < found.size(); ++i)
   {
     threads.emplace_back([&found, i]() {
-      const std::shared_ptr<Device> own = openDevice("");
+      const auto own = std::static_pointer_cast<Device>(openDevice(""));
       for (int repeat = 0; repeat < 5; ++repeat)
       {
         found[i] = doubled(*own, 10000, static_cast<int>(i));

@@ -5,8 +5,9 @@
 #define RectifiedTransport_Device_h
 
 #include "Core/Device/DeviceError.h"
-#include "Core/Device/DeviceList.h"
-#include "Core/Device/OpenCL.h"
+#include "Core/Device/FlowDevice.h"
+#include "Devices/DeviceList.h"
+#include "Devices/OpenCL.h"
 
 #include <array>
 #include <atomic>
@@ -122,20 +123,19 @@ struct DeviceWork
 };
 
 // All functions throw DeviceError.
-class Device : public std::enable_shared_from_this<Device>
+class Device final : public FlowDevice
 {
 public:
   explicit Device(const FoundDevice& found);
-  ~Device();
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
+  ~Device() override;
 
   const DeviceDescription& Description() const { return this->Found.Description; }
   bool Is(const FoundDevice& found) const { return found.Id == this->Found.Id; }
-  // To be locked by whoever uses it. Buffers may go, and what is kept, without it.
-  std::timed_mutex& Mutex() { return this->InUse; }
-  bool IsLost() const { return this->HasFailed || OpenCL::IsOfParent(); }
-  void MarkLost() { this->HasFailed = true; }
+  const std::string& Name() const override { return this->Description().Name; }
+  bool IsLost() const override { return FlowDevice::IsLost() || OpenCL::IsOfParent(); }
+  void Find(const void* owner, std::shared_ptr<DeviceFlow<2>>& flow) override;
+  void Find(const void* owner, std::shared_ptr<DeviceFlow<3>>& flow) override;
+  void Forget(const void* owner) override;
   bool IsGpu() const { return (this->Found.Type & CL_DEVICE_TYPE_GPU) != 0; }
   const DeviceWork& Work() const { return this->Done; }
   std::uint64_t LargestAllocation() const { return this->LargestBuffer; } // bytes
@@ -146,10 +146,6 @@ public:
   DeviceProgram Build(const std::vector<std::string>& sources, const std::string& options = "");
   // The program of a name, which make() builds when it is first asked for.
   const DeviceProgram& Program(const std::string& name, const std::function<DeviceProgram()>& make);
-  // What others keep here, each under its own address, until they forget it or the device goes: a
-  // reference to it that owns nothing does not keep the device open.
-  void Keep(const void* owner, std::shared_ptr<void> kept);
-  void Forget(const void* owner);
   // `what` is for messages. The memory is not set.
   DeviceBuffer Allocate(std::size_t bytes, const std::string& what);
 
@@ -184,6 +180,8 @@ private:
       release(handle);
     }
   }
+  template <int Dimension>
+  std::shared_ptr<DeviceFlow<Dimension>> FlowOf(const void* owner);
   DeviceTransfer Begun(cl_event event);
   void Close();
   void RequireMemoryToCompile() const;
@@ -196,12 +194,10 @@ private:
   cl_context Context = nullptr;
   cl_command_queue Queue = nullptr;
   cl_command_queue Transfers = nullptr;
-  std::timed_mutex InUse;
-  std::atomic<bool> HasFailed{ false };
   std::map<std::string, DeviceProgram> Programs;
-  std::mutex KeptMutex; // guards Kept; no other mutex is locked within
-  std::map<const void*, std::shared_ptr<void>> Kept;
-  std::set<std::string> Started; // names of kernels
+  std::mutex FlowsMutex; // guards Flows; no other mutex is locked within
+  std::map<const void*, std::shared_ptr<void>> Flows; // by their owners
+  std::set<std::string> Started;                      // names of kernels
 };
 
 } // namespace RectifiedTransport

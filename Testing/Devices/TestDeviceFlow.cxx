@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flows on a device: the bits of the processor, whatever the density, the options and the
 // particles.
-#include "Device/OfADevice.h"
+#include "OfADevice.h"
 
 #include "TestFlow.h"
 
 #include "Core/Device/DeviceUse.h"
-#include "Core/Flow/Devices/DeviceTables.h"
-#include "Core/Flow/Devices/FlowPrograms.h"
-#include "Core/Flow/Devices/KernelRun.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
+#include "Devices/DeviceTables.h"
+#include "Devices/FlowPrograms.h"
+#include "Devices/KernelRun.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Device/DeviceCheck.h"
+#include "Devices/DeviceCheck.h"
 
-#include "Core/Device/Device.h"
+#include "Devices/Device.h"
 
 #include <array>
 #include <cmath>

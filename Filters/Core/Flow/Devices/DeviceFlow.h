@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Advections of particles that a device does.
-#ifndef RectifiedTransport_DeviceAdvection_h
-#define RectifiedTransport_DeviceAdvection_h
+// What a device does of a flow. Libraries of devices implement it.
+#ifndef RectifiedTransport_DeviceFlow_h
+#define RectifiedTransport_DeviceFlow_h
 
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/FlowMap.h"
@@ -40,37 +40,34 @@ public:
     double* positions, FlowReport& counts, Progress& progress) = 0;
 };
 
-// What a device keeps of a flow: its tables, and the map of the last run in either direction.
+// What a device keeps of a flow: its tables, and the map of the last run in either direction. `use`
+// is a use of that device.
 template <int Dimension>
 class DeviceFlow
 {
 public:
-  DeviceFlow();
-  ~DeviceFlow();
+  DeviceFlow() = default;
+  virtual ~DeviceFlow() = default;
   DeviceFlow(const DeviceFlow&) = delete;
   DeviceFlow& operator=(const DeviceFlow&) = delete;
 
-  // Whether devices do such advections, to time 1 or back to 0.
-  static bool Serves(AdvectionKind kind, const FlowOptions& options);
+  // Whether the device does such advections, to time 1 or back to 0.
+  virtual bool Serves(AdvectionKind kind, const FlowOptions& options) const = 0;
 
-  // Makes the tables of a density on the device of `use`, if it serves: less is transferred than
-  // from those of the processor, which are given. Throws Cancelled.
-  void MakeTables(DeviceUse& use, const DensitySource<Dimension>& density,
-    const SummedAreaTables<Dimension>& tables, Progress& progress);
+  // Makes the tables of a density, if `use` serves: less is transferred than from those of the
+  // processor, which are given. Throws Cancelled.
+  virtual void MakeTables(DeviceUse& use, const DensitySource<Dimension>& density,
+    const SummedAreaTables<Dimension>& tables, Progress& progress) = 0;
 
-  // An advection with a map, or none, on the device of `use`; null where that does not serve, or
-  // the progress is to stop before another thread leaves it. All must outlive it. Advections of
-  // several threads may be under way.
-  std::unique_ptr<DeviceAdvection<Dimension>> Begin(DeviceUse& use,
+  // An advection with a map, or none; null where `use` does not serve, or the progress is to stop
+  // before another thread leaves the device. All must outlive it. Advections of several threads may
+  // be under way.
+  virtual std::unique_ptr<DeviceAdvection<Dimension>> Begin(DeviceUse& use,
     const AdvectionJob<Dimension>& job, std::shared_ptr<const FlowMap<Dimension>> map,
-    Progress& progress);
+    Progress& progress) = 0;
 
   // The nodes of maps of such an advection.
-  DeviceNodes<Dimension> BeginNodes(DeviceUse& use, const AdvectionJob<Dimension>& job);
-
-private:
-  class Implementation;
-  const std::unique_ptr<Implementation> Cached;
+  virtual DeviceNodes<Dimension> BeginNodes(DeviceUse& use, const AdvectionJob<Dimension>& job) = 0;
 };
 
 } // namespace RectifiedTransport

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Device/Device.h"
+#include "Devices/Device.h"
 
 namespace RectifiedTransport
 {

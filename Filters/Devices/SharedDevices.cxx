@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Device/SharedDevices.h"
+#include "Devices/SharedDevices.h"
 
 #include "Core/Device/DeviceError.h"
-#include "Core/Device/DeviceList.h"
+#include "Core/Device/FlowDevice.h"
+#include "Devices/DeviceList.h"
 
 #include <algorithm>
 #include <mutex>
@@ -14,22 +15,22 @@ namespace
 {
 
 // The devices that are open in this process are found again.
-std::shared_ptr<Device> findOrOpen(const std::string& name, int number)
+std::shared_ptr<FlowDevice> findOrOpen(const std::string& name, int number)
 {
   static std::mutex mutex;
-  static std::vector<std::weak_ptr<Device>> entries;
+  static std::vector<std::weak_ptr<FlowDevice>> entries;
   // Held while a device is opened: who asks for it meanwhile gets the same one.
   const std::lock_guard<std::mutex> lock(mutex);
   // Weak entries: a device closes when its last user lets it go.
-  std::vector<std::shared_ptr<Device>> open;
-  for (const std::weak_ptr<Device>& entry : entries)
+  std::vector<std::shared_ptr<FlowDevice>> open;
+  for (const std::weak_ptr<FlowDevice>& entry : entries)
   {
-    if (std::shared_ptr<Device> device = entry.lock())
+    if (std::shared_ptr<FlowDevice> device = entry.lock())
     {
       open.push_back(std::move(device));
     }
   }
-  std::shared_ptr<Device> found = openDevice(name, number, open);
+  std::shared_ptr<FlowDevice> found = openDevice(name, number, open);
   if (std::find(open.begin(), open.end(), found) == open.end())
   {
     open.push_back(found);
@@ -42,7 +43,7 @@ std::shared_ptr<Device> findOrOpen(const std::string& name, int number)
 
 DeviceUse CachedDevice::Begin(const std::string& name, int number)
 {
-  if (this->Opened && name == this->Name && number == this->Number && !isLost(*this->Opened))
+  if (this->Opened && name == this->Name && number == this->Number && !this->Opened->IsLost())
   {
     return DeviceUse(this->Opened);
   }

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_OfADevice_h
 #define RectifiedTransport_OfADevice_h
 
-#include "Core/Device/Device.h"
+#include "Devices/Device.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,8 @@ class OfADevice : public ::testing::Test
 protected:
   void SetUp() override
   {
-    const std::string reason = errorOf([this]() { this->Opened = openDevice(""); });
+    const std::string reason =
+      errorOf([this]() { this->Opened = std::static_pointer_cast<Device>(openDevice("")); });
     if (!this->Opened)
     {
       ASSERT_EQ(std::getenv("RT_OPENCL"), nullptr) << reason;

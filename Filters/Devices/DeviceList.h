@@ -4,6 +4,8 @@
 #ifndef RectifiedTransport_DeviceList_h
 #define RectifiedTransport_DeviceList_h
 
+#include "../Core/Device/DeviceUse.h"
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -11,8 +13,6 @@
 
 namespace RectifiedTransport
 {
-
-class Device;
 
 struct DeviceDescription
 {
@@ -22,9 +22,8 @@ struct DeviceDescription
   std::string Lacks;        // what it cannot do that is needed; empty if nothing is known to be
 };
 
-// Lists the devices in the order of the driver; empty if there is no driver, or if this library was
-// built without
-// OpenCL. Does not throw anything but std::bad_alloc.
+// Lists the devices in the order of the driver; empty if there is no driver. Does not throw
+// anything but std::bad_alloc.
 std::vector<DeviceDescription> listDevices();
 
 // Opens the device of number `number`, from 0 and modulo their count, among the devices whose names
@@ -32,8 +31,12 @@ std::vector<DeviceDescription> listDevices();
 // counted alone if there are any. If it fails the self-test of DeviceCheck.h, the next one is
 // tried. A device in `open` is returned as it is. Throws DeviceError: no driver, no such device,
 // one that lacks something or computes other bits than
-std::shared_ptr<Device> openDevice(
-  const std::string& name, int number = 0, const std::vector<std::shared_ptr<Device>>& open = {});
+// processors.
+std::shared_ptr<FlowDevice> openDevice(const std::string& name, int number = 0,
+  const std::vector<std::shared_ptr<FlowDevice>>& open = {});
+
+// The use of the device that openDevice finds, or of none.
+DeviceUse useDevice(const std::string& name);
 
 } // namespace RectifiedTransport
 

@@ -3,12 +3,12 @@
 #ifndef RectifiedTransport_KernelRun_h
 #define RectifiedTransport_KernelRun_h
 
-#include "Core/Device/Device.h"
 #include "Core/Flow/AdvectionJob.h"
-#include "Core/Flow/Devices/DeviceTables.h"
 #include "Core/Flow/Kernels/FlowMapView.h"
 #include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Parallel/Progress.h"
+#include "Devices/Device.h"
+#include "Devices/DeviceTables.h"
 
 #include <cstdint>
 #include <functional>
