@@ -3,9 +3,7 @@
 
 #include "Bridge/Plan/DensityPlan.h"
 #include "Bridge/Run/MpiController.h"
-#include "Bridge/Run/Settings/FlowSettings.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Parallel/RankExchange.h"
 #include "Devices/SharedDevices.h"
 
@@ -33,7 +31,7 @@ struct vtkTransportAlgorithm::vtkDevice
 
 //------------------------------------------------------------------------------
 vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
-  : vtkDensityAlgorithm(densityPort)
+  : vtkFlowAlgorithm(densityPort)
   , OwnDevice(new vtkDevice)
 {
 }
@@ -51,24 +49,6 @@ const char* vtkTransportAlgorithm::GetMethodAsString()
 const char* vtkTransportAlgorithm::GetTablesAsString()
 {
   return choiceText(TablesTexts, this->Tables);
-}
-
-//------------------------------------------------------------------------------
-const char* vtkTransportAlgorithm::GetIntegratorAsString()
-{
-  return choiceText(IntegratorTexts, this->Integrator);
-}
-
-//------------------------------------------------------------------------------
-const char* vtkTransportAlgorithm::GetTableLookupAsString()
-{
-  return choiceText(TableLookupTexts, this->TableLookup);
-}
-
-//------------------------------------------------------------------------------
-const char* vtkTransportAlgorithm::GetFlowMapsAsString()
-{
-  return choiceText(FlowMapsTexts, this->FlowMaps);
 }
 
 //------------------------------------------------------------------------------
@@ -148,16 +128,14 @@ void vtkTransportAlgorithm::EndDevice(const DeviceUse& device)
 }
 
 //------------------------------------------------------------------------------
-FlowOptions vtkTransportAlgorithm::GetFlowOptions()
+TransportSettings vtkTransportAlgorithm::GetTransportSettings()
 {
+  requireChoice("Method", this->Method, MethodTexts);
+  requireThat(this->OptimalityTolerance > 0.0 && this->OptimalityTolerance < 1.0,
+    "OptimalityTolerance", this->OptimalityTolerance, "above 0 and below 1");
   requireChoice("Device", this->Device, DeviceTexts);
-  return flowOptionsOf(*this);
-}
-
-//------------------------------------------------------------------------------
-OptimalSetting vtkTransportAlgorithm::GetOptimalSetting()
-{
-  return optimalSettingOf(*this);
+  return { this->GetFlowOptions(), tableSetting(this->Tables),
+    { this->Method == OPTIMAL, this->OptimalityTolerance, this->Certify != 0 } };
 }
 
 //------------------------------------------------------------------------------
@@ -173,9 +151,10 @@ void vtkTransportAlgorithm::WarnOfAreas()
 void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  printOptimalSetting(*this, os, indent);
+  os << indent << "Method: " << this->GetMethodAsString() << "\n";
+  os << indent << "OptimalityTolerance: " << this->OptimalityTolerance << "\n";
+  os << indent << "Certify: " << (this->Certify ? "On" : "Off") << "\n";
   os << indent << "Tables: " << this->GetTablesAsString() << "\n";
-  printFlowOptions(*this, os, indent);
   os << indent << "Device: " << this->GetDeviceAsString() << "\n";
   os << indent << "DeviceName: " << this->OwnDevice->Name << "\n";
 }

@@ -4,12 +4,8 @@
  * @brief   superclass of the filters that move points by a map between a density and the uniform
  *          measure
  *
- * The flow is that of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
- * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. Points that are uniform at
- * time 0 follow the velocity field of equation 12. The velocity needs the mass and the centroid of
- * the density in a box (equations 10 and 11). Both come from summed-area tables (Section 3.3).
- *
- * With Method Optimal the map of least mean squared distance takes the place of the flow (see
+ * The map is that of the flow (see vtkFlowAlgorithm). With Method Optimal the map of least mean
+ * squared distance takes its place (see
  * OptimalMap.h in the core): by the back-and-forth method of Jacobs and Leger, "A fast approach to
  * optimal transport: the back-and-forth method", Numerische Mathematik 146, 2020,
  * doi:10.1007/s00211-020-01154-8. With it, or with Certify, outputs have the field data
@@ -19,37 +15,34 @@
  * It has the errors of the map's masses and of the samples that the cost is from. Where the bound
  * is 0, it is 0 for a cost of 0 up to rounding, else infinite.
  *
- * This class holds the properties of the method, of the tables, of the integration and of the
- * device.
+ * This class holds the properties of the method, of the tables and of the device.
  *
- * @sa vtkDensityAlgorithm vtkTransportSampler vtkTransportMap
+ * @sa vtkFlowAlgorithm vtkDensityAlgorithm vtkTransportSampler vtkTransportMap
  */
 #ifndef vtkTransportAlgorithm_h
 #define vtkTransportAlgorithm_h
 
-#include "vtkDensityAlgorithm.h"
+#include "vtkFlowAlgorithm.h"
 #include "vtkRectifiedTransportCommonModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
-#include <string> // for texts
 
 namespace RectifiedTransport
 {
 class DeviceUse;
-struct FlowOptions;
 namespace Bridge
 {
-struct OptimalSetting;
+struct TransportSettings;
 } // namespace Bridge
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkStringArray;
 
-class VTKRECTIFIEDTRANSPORTCOMMON_EXPORT vtkTransportAlgorithm : public vtkDensityAlgorithm
+class VTKRECTIFIEDTRANSPORTCOMMON_EXPORT vtkTransportAlgorithm : public vtkFlowAlgorithm
 {
 public:
-  vtkTypeMacro(vtkTransportAlgorithm, vtkDensityAlgorithm);
+  vtkTypeMacro(vtkTransportAlgorithm, vtkFlowAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -118,81 +111,6 @@ public:
 
   ///@{
   /**
-   * How the velocity field of the flow (equation 12) is integrated. Multistep (default): a graded
-   * Adams-Bashforth-Moulton method of order 3, with one velocity a step. RungeKutta4 (the paper's
-   * Algorithm 2, with the correct limit of the velocity at t = 1) and Euler: uniform steps.
-   * Adaptive: individual steps for each particle, controlled by Tolerance.
-   */
-  vtkSetMacro(Integrator, int);
-  vtkGetMacro(Integrator, int);
-  void SetIntegratorToMultistep() { this->SetIntegrator(MULTISTEP); }
-  void SetIntegratorToRungeKutta4() { this->SetIntegrator(RUNGE_KUTTA_4); }
-  void SetIntegratorToEuler() { this->SetIntegrator(EULER); }
-  void SetIntegratorToAdaptive() { this->SetIntegrator(ADAPTIVE); }
-  const char* GetIntegratorAsString();
-  ///@}
-
-  ///@{
-  /**
-   * The number of steps of Multistep, RungeKutta4 and Euler, 1 to 10000. 0 (default): as many as
-   * AreaTolerance asks, 32 to 4096, by the density, the direction and the number of particles.
-   */
-  vtkSetMacro(NumberOfSteps, int);
-  vtkGetMacro(NumberOfSteps, int);
-  ///@}
-
-  ///@{
-  /**
-   * Where NumberOfSteps is 0: the largest error of the masses, or backward of the areas (volumes),
-   * of 99.9 % of blocks, relative to their mass or 5 % of the mean block's; above 0 and at most 1.
-   * Blocks have 4 cells a side; where particles show the density, they hold AreaTolerance^(-4/3)
-   * of them or more. With the default, 0.02, a run costs at most 8 times as much as with 32 steps;
-   * other values have no limit. A warning says what is reached, and what would be needed.
-   */
-  vtkSetMacro(AreaTolerance, double);
-  vtkGetMacro(AreaTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * The error that Adaptive allows, in cells of the density, above 0. Default 0.01.
-   */
-  vtkSetMacro(Tolerance, double);
-  vtkGetMacro(Tolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * How the density is integrated over a box. Interpolated (default): exactly (the paper's
-   * Algorithm 1). Nearest: boxes are rounded to whole cells (its Figure 4); coarser, for
-   * comparisons.
-   */
-  vtkSetMacro(TableLookup, int);
-  vtkGetMacro(TableLookup, int);
-  void SetTableLookupToInterpolated() { this->SetTableLookup(INTERPOLATED); }
-  void SetTableLookupToNearest() { this->SetTableLookup(NEAREST); }
-  const char* GetTableLookupAsString();
-  ///@}
-
-  ///@{
-  /**
-   * Whether lattices of seeds carry the smooth part of the flow. Particles are then interpolated
-   * from them and take only the last few steps themselves. Auto (default): if that saves time,
-   * which depends only on the size of the density, NumberOfSteps and the number of particles; never
-   * for site cells. On, Off. Only Multistep with Interpolated in 2D and 3D uses flow maps, and not
-   * for small densities: with 32 steps, those below about 126 cells a side in 2D and 77 in 3D. More
-   * steps lower this limit.
-   */
-  vtkSetMacro(FlowMaps, int);
-  vtkGetMacro(FlowMaps, int);
-  void SetFlowMapsToAuto() { this->SetFlowMaps(FLOW_MAPS_AUTO); }
-  void SetFlowMapsToOn() { this->SetFlowMaps(FLOW_MAPS_ON); }
-  void SetFlowMapsToOff() { this->SetFlowMaps(FLOW_MAPS_OFF); }
-  const char* GetFlowMapsAsString();
-  ///@}
-
-  ///@{
-  /**
    * Where the flow is computed: CPU (default), or OpenCL: on a device, usually a graphics card,
    * with the same bits. The processor does what a device does not support. If there is no device,
    * or it fails, a warning says why, and the processor does the work, or the rest of it. A device
@@ -232,14 +150,10 @@ protected:
   ~vtkTransportAlgorithm() override;
 
   /**
-   * The properties of the integration, checked; so is Device. Throws what RequestData may throw.
+   * Method, OptimalityTolerance, Certify, Tables and the properties of the integration, checked; so
+   * is Device. Throws what RequestData may throw.
    */
-  RectifiedTransport::FlowOptions GetFlowOptions();
-
-  /**
-   * Method, OptimalityTolerance and Certify, checked. Throws what RequestData may throw.
-   */
-  RectifiedTransport::Bridge::OptimalSetting GetOptimalSetting();
+  RectifiedTransport::Bridge::TransportSettings GetTransportSettings();
 
   /**
    * The device of a run, opened. Collective.
@@ -260,12 +174,6 @@ protected:
   double OptimalityTolerance = 0.001;
   vtkTypeBool Certify = false;
   int Tables = TABLES_AUTO;
-  int Integrator = MULTISTEP;
-  int NumberOfSteps = 0;
-  double AreaTolerance = 0.02;
-  double Tolerance = 0.01;
-  int TableLookup = INTERPOLATED;
-  int FlowMaps = FLOW_MAPS_AUTO;
   int Device = DEVICE_CPU;
 
 private:

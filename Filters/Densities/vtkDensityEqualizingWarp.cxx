@@ -9,7 +9,6 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Settings/MissingData.h"
-#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Messages/PartText.h"
@@ -55,10 +54,7 @@ int vtkDensityEqualizingWarp::RequestData(
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
   requireThat(this->Margin >= 0.0 && this->Margin <= LargestMargin, "Margin", this->Margin,
     "from 0 to 10 (times the longest axis)");
-  DensityEqualizingWarp warp{};
-  warp.Tables = tableSetting(this->Tables);
-  warp.Flow = this->GetFlowOptions();
-  warp.Optimal = this->GetOptimalSetting();
+  DensityEqualizingWarp warp{ this->GetTransportSettings() };
   warp.Blend = this->Blend;
   warp.EqualizeAreas = this->EqualizeAreas != 0;
   const Ranks& ranks = this->GetRanks();

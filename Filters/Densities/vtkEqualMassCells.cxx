@@ -8,8 +8,6 @@
 #include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/StepReport.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
 #include "Bridge/SiteCells/LabelGrid.h"
@@ -51,7 +49,7 @@ struct vtkEqualMassCells::vtkInternals
 
 //------------------------------------------------------------------------------
 vtkEqualMassCells::vtkEqualMassCells()
-  : vtkTransportAlgorithm(1)
+  : vtkFlowAlgorithm(1)
   , Internals(new vtkInternals)
 {
   this->AddInputPort(PORT_GATHERED_POINTS, { "vtkPointSet" });
@@ -154,14 +152,6 @@ int vtkEqualMassCells::RequestData(
     constexpr const char* rule = "2, which Shape Power needs";
     requireThat(this->NormExponent == 2.0, "NormExponent", this->NormExponent, rule);
     requireThat(this->CostExponent == 2.0, "CostExponent", this->CostExponent, rule);
-  }
-  requireThat(tableSetting(this->Tables) != TableSetting::Tiled, "Tables", this->Tables,
-    "0 (Auto) or 1 (Whole), as cells have no tiles");
-  if (this->GetOptimalSetting().NeedsMap())
-  {
-    throw Failure(
-      "Method must be RectifiedFlow and Certify Off, as cells have no optimal map; Shape "
-      "Power gives those of least cost");
   }
   EqualMassCells cells{};
   cells.Flow = this->GetFlowOptions();

@@ -74,8 +74,6 @@
  * sites are distributed very differently from the density, cells of equal mass may not be found;
  * this is an error.
  *
- * The processor does the work, whatever Device is. Method Optimal and Certify are errors.
- *
  * With several MPI ranks, rank 0 gathers all sites and the domain and does the work. Each rank gets
  * the extent of Labels that is requested of it. The other outputs are on rank 0.
  *
@@ -99,27 +97,27 @@
  * vtkImageData* labels = cells->GetLabels();
  * \endcode
  *
- * @sa vtkTransportAlgorithm vtkDensityAlgorithm vtkTransportMap vtkTransportSampler
+ * @sa vtkFlowAlgorithm vtkDensityAlgorithm vtkTransportMap vtkTransportSampler
  */
 #ifndef vtkEqualMassCells_h
 #define vtkEqualMassCells_h
 
+#include "vtkFlowAlgorithm.h"
 #include "vtkImageData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
-#include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
 
-class VTKRECTIFIEDTRANSPORTDENSITIES_EXPORT vtkEqualMassCells : public vtkTransportAlgorithm
+class VTKRECTIFIEDTRANSPORTDENSITIES_EXPORT vtkEqualMassCells : public vtkFlowAlgorithm
 {
 public:
   static vtkEqualMassCells* New();
-  vtkTypeMacro(vtkEqualMassCells, vtkTransportAlgorithm);
+  vtkTypeMacro(vtkEqualMassCells, vtkFlowAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

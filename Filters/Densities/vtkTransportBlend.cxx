@@ -7,7 +7,6 @@
 #include "Bridge/Ensembles/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Geometry/Boxes/CommonGrid.h"
 #include "Core/Messages/Failure.h"
@@ -114,15 +113,12 @@ RectifiedTransport::Bridge::BlendSettings vtkTransportBlend::GetBlendSettings()
   requireThat(this->ParticlesPerCell >= 0, "ParticlesPerCell", this->ParticlesPerCell,
     "at least 1, or 0 for Auto");
   requireChoice("MassMode", this->MassMode, MassModeTexts);
-  BlendSettings settings{};
-  settings.Tables = tableSetting(this->Tables);
+  BlendSettings settings{ this->GetTransportSettings() };
   std::copy_n(this->Dimensions, 3, settings.Dimensions);
   // With fewer, surfaces of solids have terraces; with more, pictures are hardly better.
   constexpr int autoParticles = 4;
   settings.ParticlesPerCell = this->ParticlesPerCell > 0 ? this->ParticlesPerCell : autoParticles;
   settings.Mode = static_cast<BlendedMass>(this->MassMode);
-  settings.Flow = this->GetFlowOptions();
-  settings.Optimal = this->GetOptimalSetting();
   settings.Splat = splatOptions(this->Kernel, this->Radius);
   return settings;
 }

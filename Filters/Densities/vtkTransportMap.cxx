@@ -7,7 +7,6 @@
 #include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/MissingData.h"
-#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/Settings/TargetArray.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Device/DeviceUse.h"
@@ -148,10 +147,7 @@ int vtkTransportMap::RequestData(
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
   // All properties are checked before anything is read, so that a wrong value is an error at once.
-  TransportMap map{};
-  map.Tables = tableSetting(this->Tables);
-  map.Flow = this->GetFlowOptions();
-  map.Optimal = this->GetOptimalSetting();
+  TransportMap map{ this->GetTransportSettings() };
   map.Backward = this->Direction == DENSITY_TO_UNIFORM;
   map.EqualizeAreas = this->EqualizeAreas != 0;
   std::copy_n(this->SampleDimensions, 3, map.SampleDimensions.begin());

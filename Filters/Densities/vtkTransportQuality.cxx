@@ -7,7 +7,7 @@
 #include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Bridge/Samples/TransportQuality.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"

@@ -7,7 +7,6 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/SeedSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
 #include "Bridge/Run/StepReport.h"
 #include "Core/Device/DeviceUse.h"
 #include "Core/Messages/PartText.h"
@@ -47,11 +46,8 @@ int vtkTransportSampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* seeds = pointSetOf(inputVector[1]);
-  TransportSampler sampler{};
+  TransportSampler sampler{ this->GetTransportSettings() };
   sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
-  sampler.Tables = tableSetting(this->Tables);
-  sampler.Flow = this->GetFlowOptions();
-  sampler.Optimal = this->GetOptimalSetting();
   sampler.NumberOfParticles = this->NumberOfParticles;
   sampler.RandomSeed = this->RandomSeed;
   sampler.SamplesPerCell = this->SamplesPerCell;

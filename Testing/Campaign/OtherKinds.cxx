@@ -57,9 +57,6 @@ void drawCells(Settings& settings)
   drawValidRange(settings, false);
   settings.Draw<Cells, int>(
     "DensityResolution", &Cells::SetDensityResolution, { 1, 9, 16, 40 }, {}, 0.2);
-  settings.Draw<Cells, int>("Tables", &Cells::SetTables, { 0, 1, 2 }, {}, 0.2);
-  drawMethod<Cells>(settings);
-  drawDevice<Cells>(settings);
 }
 
 Inputs drawCellsInputs(RandomSource& random, Settings& settings)
@@ -76,10 +73,6 @@ State expectCells(vtkAlgorithm* filter, const Inputs& inputs)
   auto* set = vtkPointSet::SafeDownCast(inputs[0][0].Data);
   auto* cells = Cells::SafeDownCast(filter);
   State state = inputs[0][0].Condition;
-  if (cells->GetMethod() != Cells::RECTIFIED_FLOW || cells->GetCertify())
-  {
-    state = worse(state, State::Open); // cells have no optimal map
-  }
   if (set->GetNumberOfPoints() > cells->GetResolution() || cells->GetShape() == Cells::SHAPE_POWER)
   {
     // There may be less than a pixel for each site; a domain or cost that has no power cells.

@@ -7,8 +7,7 @@
 
 #include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Plan/TableChoice.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Blend/BlendWeights.h"
 #include "Core/Flow/PivotPositions.h"
@@ -83,15 +82,12 @@ private:
   std::vector<StoreSlot> Slots; // by the inputs
 };
 
-struct BlendSettings
+struct BlendSettings : TransportSettings
 {
-  int Dimensions[3]; // the arguments of commonGrid
-  int ParticlesPerCell;
-  BlendedMass Mode;
-  FlowOptions Flow;
-  TableSetting Tables;
-  OptimalSetting Optimal;
-  SplatOptions Splat;
+  int Dimensions[3] = {}; // the arguments of commonGrid
+  int ParticlesPerCell = 0;
+  BlendedMass Mode = BlendedMass::Linear;
+  SplatOptions Splat = {};
   bool ComparesEnds = false; // two inputs also give TransportCost and Displacement
 };
 

@@ -11,13 +11,10 @@ namespace RectifiedTransport::Bridge
 {
 
 // The members are the properties of that class.
-struct DensityEqualizingWarp
+struct DensityEqualizingWarp : TransportSettings
 {
-  FlowOptions Flow;
-  TableSetting Tables;
-  OptimalSetting Optimal;
-  double Blend;
-  bool EqualizeAreas;
+  double Blend = 1.0;
+  bool EqualizeAreas = false;
 
   struct Report
   {

@@ -32,14 +32,11 @@ struct TargetDensity
 };
 
 // The members are the properties of that class.
-struct TransportMap
+struct TransportMap : TransportSettings
 {
-  FlowOptions Flow;
-  TableSetting Tables;
-  OptimalSetting Optimal;
-  bool Backward;                       // to the uniform measure; has no effect with a target
-  bool EqualizeAreas;                  // only for Backward
-  std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
+  bool Backward = false;                    // to the uniform measure; has no effect with a target
+  bool EqualizeAreas = false;               // only for Backward
+  std::array<int, 3> SampleDimensions = {}; // 0 keeps the number of the density's values
 
   struct Report
   {

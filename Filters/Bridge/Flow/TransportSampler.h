@@ -5,8 +5,7 @@
 
 #include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Plan/TableChoice.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
-#include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Seeds/Seeds.h"
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -18,18 +17,15 @@ namespace RectifiedTransport::Bridge
 {
 
 // The members are the properties of that class.
-struct TransportSampler
+struct TransportSampler : TransportSettings
 {
-  FlowOptions Flow;
-  TableSetting Tables;
-  OptimalSetting Optimal;
-  SeedPattern Pattern;
-  std::int64_t NumberOfParticles;
-  int RandomSeed;
-  int SamplesPerCell;
-  double FlowTime;
-  bool OutputPaths;
-  bool SampleArrays;
+  SeedPattern Pattern = SeedPattern::BlueNoise;
+  std::int64_t NumberOfParticles = 0;
+  int RandomSeed = 0;
+  int SamplesPerCell = 0;
+  double FlowTime = 1.0;
+  bool OutputPaths = false;
+  bool SampleArrays = false;
 
   // Numbers for warnings, of all ranks.
   struct Report

@@ -8,7 +8,7 @@
 #include "Bridge/Plan/OptimalMemory.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/Plan/TransportPlan.h"

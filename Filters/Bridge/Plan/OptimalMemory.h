@@ -4,7 +4,7 @@
 #define RectifiedTransport_OptimalMemory_h
 
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/Settings/OptimalSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Plan/TransportPlan.h"

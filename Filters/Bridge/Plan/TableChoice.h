@@ -4,7 +4,7 @@
 #define RectifiedTransport_BridgeTableChoice_h
 
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Flow/TableChoice.h"
 
 namespace RectifiedTransport::Bridge

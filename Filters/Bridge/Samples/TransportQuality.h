@@ -6,7 +6,7 @@
 #include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Plan/TableChoice.h"
 #include "Bridge/Ranks/DistributedPoints.h"
-#include "Bridge/Run/Settings/TableSettings.h"
+#include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Quality/ParticleQuality.h"
 
 namespace RectifiedTransport::Bridge

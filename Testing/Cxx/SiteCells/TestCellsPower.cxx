@@ -236,13 +236,6 @@ void checkErrors(Checks& checks)
   cells->SetShape(2);
   ErrorTest(checks, cells).Expect("Shape is 2; it must be 0 (Flow) or 1 (Power)", __LINE__);
   cells = fresh();
-  cells->SetTablesToTiled();
-  ErrorTest(checks, cells)
-    .Expect("Tables is 2; it must be 0 (Auto) or 1 (Whole), as cells have no tiles", __LINE__);
-  cells = fresh();
-  cells->SetDevice(2);
-  ErrorTest(checks, cells).Expect("Device is 2; it must be 0 (CPU) or 1 (OpenCL)", __LINE__);
-  cells = fresh();
   cells->SetDomainData(makeDomain({ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 }));
   ErrorTest(checks, cells)
     .Expect("Shape Power needs a domain of two dimensions; this one has 3", __LINE__);

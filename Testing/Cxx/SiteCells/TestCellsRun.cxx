@@ -31,7 +31,6 @@ void checkCache(Checks& checks)
   expectAfterEach(checks, makes, false,
     { { "CostExponent", [&]() { cells->SetCostExponent(4.0); } },
       { "NormExponent", [&]() { cells->SetNormExponent(1.0); } },
-      { "Device", [&]() { cells->SetDeviceToOpenCL(); } },
       { "Threading", [&]() { cells->SetThreadingToSerial(); } } },
     __LINE__);
   const auto moveDomain = [&]() {

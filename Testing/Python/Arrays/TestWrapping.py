@@ -30,6 +30,7 @@ class Wrapping(unittest.TestCase):
     def test_abstract_classes_have_no_instances(self):
         for base in (rectifiedtransport.vtkDensityAlgorithm,
                      rectifiedtransport.vtkDiskAlgorithm,
+                     rectifiedtransport.vtkFlowAlgorithm,
                      rectifiedtransport.vtkTransportAlgorithm):
             with self.assertRaises((TypeError, NotImplementedError)):
                 base()

@@ -14,7 +14,7 @@
 namespace RectifiedTransport::Bridge
 {
 
-// Indexed by the enumerations of vtkTransportAlgorithm.
+// Indexed by the enumerations of vtkTransportEnumerations.
 constexpr const char* IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
 constexpr const char* TableLookupTexts[] = { "Interpolated", "Nearest" };
 constexpr const char* FlowMapsTexts[] = { "Auto", "On", "Off" };
