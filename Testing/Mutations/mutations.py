@@ -111,6 +111,7 @@ OTHERS = [
     E(CORE + "Geometry/Trees/BoxTree.h", "withEqual ? «value(item) <= pivot»",
       "value(item) < pivot || &item == items + first"),
     E(CORE + "Flow/WeightedMean.cxx", "begin += «block»", "block + 1"),
+    E(CORE + "Grid/FourierTransform.h", "turn -= turn < «this->RootsOfUnity.size()»", "radix * part"),
     # the bridge
     E(CORE + "Geometry/ImageGrid.cxx", "grid.SetAxis(i, this->PointExtent[2 * i] - «0.5 * more»", "0.0"),
     S(BRIDGE + "SiteCells/EqualMassCells.cxx",

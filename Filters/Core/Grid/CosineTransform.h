@@ -3,14 +3,10 @@
 #ifndef RectifiedTransport_CosineTransform_h
 #define RectifiedTransport_CosineTransform_h
 
-#include "Core/Grid/Lanes.h"
+#include "Core/Grid/FourierTransform.h"
 #include "Core/Parallel/LargeBuffer.h"
 
-#include <complex>
 #include <cstdint>
-#include <memory>
-#include <mutex>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -21,14 +17,17 @@ namespace RectifiedTransport
 class CosineLines
 {
 public:
-  static constexpr int Count = 2 * Lanes::Count;
-  using Complex = std::complex<Lanes>;
+  static constexpr int Count = sizeof(ComplexLines) / sizeof(double);
 
-  explicit CosineLines(std::int64_t cells);
-  ~CosineLines();
+  // M is the length of the Fourier transform, which has to outlive this object.
+  explicit CosineLines(const FourierTransform& fourier)
+    : Fourier(fourier)
+    , Line(fourier.Length() + 1)
+    , Spectrum(fourier.Length())
+  {
+  }
 
-  // Node j of all lines: real parts are lines 0 to 3, imaginary parts 4 to 7.
-  Complex* Nodes() { return this->Line.data(); }
+  // [node][line]. Real parts are lines 0 to 3, imaginary parts 4 to 7.
   double* Values() { return reinterpret_cast<double*>(this->Line.data()); }
 
   // Transforms the lines in place.
@@ -38,53 +37,9 @@ public:
   static double MemoryFor(std::int64_t cells);
 
 private:
-  struct Plan;
-
-  std::int64_t Cells;
-  std::unique_ptr<Plan> Fourier;
-  std::vector<double> Cosines; // cos(pi j / M) for j up to M / 2
-  std::vector<double> Sines;   // sin(pi j / M)
-  LargeBuffer<Complex> Line;
-  LargeBuffer<Complex> Spectrum;
-};
-
-// Lends each thread its own object and takes it back.
-class CosineLinesPool
-{
-public:
-  explicit CosineLinesPool(std::int64_t cells)
-    : Cells(cells)
-  {
-  }
-
-  // Calls work(lines). Throws std::bad_alloc.
-  template <class Work>
-  void With(const Work& work)
-  {
-    std::unique_ptr<CosineLines> lines = this->Take();
-    work(*lines);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Free.push_back(std::move(lines));
-  }
-
-private:
-  std::unique_ptr<CosineLines> Take()
-  {
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      if (!this->Free.empty())
-      {
-        std::unique_ptr<CosineLines> lines = std::move(this->Free.back());
-        this->Free.pop_back();
-        return lines;
-      }
-    }
-    return std::make_unique<CosineLines>(this->Cells);
-  }
-
-  std::int64_t Cells;
-  std::mutex Mutex; // guards Free
-  std::vector<std::unique_ptr<CosineLines>> Free;
+  const FourierTransform& Fourier;
+  LargeBuffer<ComplexLines> Line;
+  LargeBuffer<ComplexLines> Spectrum;
 };
 
 } // namespace RectifiedTransport

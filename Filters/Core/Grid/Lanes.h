@@ -1,61 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Four doubles that behave as one scalar, so that a transform of one line transforms four, and
-// complex numbers of them.
+// Two doubles that are computed as one, and complex numbers of them.
 #ifndef RectifiedTransport_Lanes_h
 #define RectifiedTransport_Lanes_h
-
-#include <complex>
 
 namespace RectifiedTransport
 {
 
-class Lanes
+// Every processor has registers of this size; longer vectors would be divided through memory.
+using Lanes = double __attribute__((vector_size(16), may_alias));
+
+// std::complex is for scalars, and its products may look for infinities.
+struct ComplexLanes
 {
-public:
-  static constexpr int Count = 4;
-
-  Lanes() = default;
-  Lanes(double value) // NOLINT: arithmetic mixes both
-    : A{ value, value }
-    , B{ value, value }
-  {
-  }
-  // Aligned to 16 bytes.
-  static Lanes Load(const double* from)
-  {
-    const auto* pairs = reinterpret_cast<const Pair*>(from);
-    return { pairs[0], pairs[1] };
-  }
-
-  Lanes& operator+=(const Lanes& other) { return *this = *this + other; }
-  Lanes& operator-=(const Lanes& other) { return *this = *this - other; }
-  Lanes& operator*=(const Lanes& other) { return *this = *this * other; }
-  friend Lanes operator+(const Lanes& a, const Lanes& b) { return { a.A + b.A, a.B + b.B }; }
-  friend Lanes operator-(const Lanes& a, const Lanes& b) { return { a.A - b.A, a.B - b.B }; }
-  friend Lanes operator*(const Lanes& a, const Lanes& b) { return { a.A * b.A, a.B * b.B }; }
-  friend Lanes operator/(const Lanes& a, const Lanes& b) { return { a.A / b.A, a.B / b.B }; }
-  friend Lanes operator-(const Lanes& a) { return { -a.A, -a.B }; }
-
-private:
-  // Every processor has registers of this size; longer vectors would be divided through memory, and
-  // more of them would not fit in the registers.
-  using Pair = double __attribute__((vector_size(16), may_alias));
-
-  Lanes(Pair a, Pair b)
-    : A(a)
-    , B(b)
-  {
-  }
-
-  Pair A;
-  Pair B;
+  Lanes Real;
+  Lanes Imaginary;
 };
 
-// Preferred to the standard library's, which may look for infinities.
-inline std::complex<Lanes> operator*(const std::complex<Lanes>& a, const std::complex<Lanes>& b)
+inline ComplexLanes operator+(const ComplexLanes& a, const ComplexLanes& b)
 {
-  return { a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real() };
+  return { a.Real + b.Real, a.Imaginary + b.Imaginary };
 }
+inline ComplexLanes operator-(const ComplexLanes& a, const ComplexLanes& b)
+{
+  return { a.Real - b.Real, a.Imaginary - b.Imaginary };
+}
+inline ComplexLanes operator*(const ComplexLanes& a, const ComplexLanes& b)
+{
+  return { a.Real * b.Real - a.Imaginary * b.Imaginary,
+    a.Real * b.Imaginary + a.Imaginary * b.Real };
+}
+template <class Scalar> // Lanes or double
+inline ComplexLanes operator*(const Scalar& a, const ComplexLanes& b)
+{
+  return { a * b.Real, a * b.Imaginary };
+}
+inline ComplexLanes timesI(const ComplexLanes& a)
+{
+  return { -a.Imaginary, a.Real };
+}
+
+// A complex number of each of four lines, read and written by halves: one half's intermediate
+// values fit in the registers.
+struct ComplexLines
+{
+  ComplexLanes operator[](int half) const { return { this->Real[half], this->Imaginary[half] }; }
+  void Set(int half, const ComplexLanes& value)
+  {
+    this->Real[half] = value.Real;
+    this->Imaginary[half] = value.Imaginary;
+  }
+
+  Lanes Real[2];
+  Lanes Imaginary[2];
+};
 
 } // namespace RectifiedTransport
 

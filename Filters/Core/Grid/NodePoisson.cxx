@@ -26,24 +26,6 @@ constexpr int lanes = CosineLines::Count;
 // Units of the first piece of work, after which its pace sizes the others.
 constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 19;
 
-// Calls kernel(first) for all blocks of eight lines. Adds `transforms` units a node.
-template <class Kernel>
-void forBlocks(const NodeLines& lines, Progress& progress, int transforms, const Kernel& kernel)
-{
-  // Units count nodes of lines, so that chunks of whole blocks have about 8192 of them.
-  const std::int64_t line = lines.Nodes * transforms;
-  const std::int64_t block = lanes * line;
-  progress.For(
-    lines.Count * line, std::max<std::int64_t>(1, 8192 / block) * block,
-    [&](std::int64_t first, std::int64_t last) {
-      for (; first < last; first += block)
-      {
-        kernel(first / line);
-      }
-    },
-    firstSlice);
-}
-
 // The eight lines that are transformed together, as their first nodes. In the last block the last
 // line stands for those that lack.
 struct PoissonBlock
@@ -77,18 +59,6 @@ struct PoissonBlock
         {
           values[i] = node[this->Begin[i]];
         }
-      }
-    }
-  }
-  // The same, times a factor for each line.
-  void LoadScaled(const double* grid, const double* factors, double* values) const
-  {
-    for (std::int64_t j = 0; j < this->Nodes; ++j, values += lanes)
-    {
-      const double* node = grid + j * this->Stride;
-      for (int i = 0; i < lanes; ++i)
-      {
-        values[i] = factors[i] * node[this->Begin[i]];
       }
     }
   }
@@ -138,18 +108,7 @@ struct NodePoisson<Dimension>::Implementation
     for (int axis = 0; axis < TransformedAxes; ++axis)
     {
       const std::int64_t cells = grid.Cells[axis];
-      // Axes of the same length share their transforms' tables and buffers.
-      for (int other = 0; other < axis; ++other)
-      {
-        if (grid.Cells[other] == cells)
-        {
-          this->Pools[axis] = this->Pools[other];
-        }
-      }
-      if (!this->Pools[axis])
-      {
-        this->Pools[axis] = std::make_shared<CosineLinesPool>(cells);
-      }
+      this->Fourier.emplace_back(cells);
       this->Eigenvalues[axis].resize(static_cast<std::size_t>(cells + 1));
       // sin(pi k / 2M) comes from a table with the same bits on every machine.
       for (std::int64_t k = 0; k <= cells; ++k)
@@ -204,7 +163,7 @@ struct NodePoisson<Dimension>::Implementation
   {
     this->Along(
       0, 1, progress, [&](std::int64_t first, const PoissonBlock& block, CosineLines& lines) {
-        this->LoadDensity(masses, first, block, lines);
+        this->LoadDensity(masses, first, block, lines.Values());
         lines.Transform();
         block.Store(lines.Values(), p);
       });
@@ -230,32 +189,44 @@ struct NodePoisson<Dimension>::Implementation
     }
   }
 
-  // Calls kernel(first, block, lines) for all blocks of lines along an axis, with a thread's own
-  // transform.
+  // Calls kernel(first, block, lines) for all blocks of eight lines along an axis. Adds
+  // `transforms` units a node.
   template <class Kernel>
   void Along(int axis, int transforms, Progress& progress, const Kernel& kernel)
   {
     const NodeLines all(this->Grid, axis);
-    forBlocks(all, progress, transforms, [&](std::int64_t first) {
-      const PoissonBlock block(all, first);
-      this->Pools[axis]->With([&](CosineLines& lines) { kernel(first, block, lines); });
-    });
+    // Units count nodes of lines, so that chunks of whole blocks have about 8192 of them.
+    const std::int64_t line = all.Nodes * transforms;
+    const std::int64_t block = lanes * line;
+    progress.For(
+      all.Count * line, std::max<std::int64_t>(1, 8192 / block) * block,
+      [&](std::int64_t first, std::int64_t last) {
+        CosineLines lines(this->Fourier[static_cast<std::size_t>(axis)]);
+        for (; first < last; first += block)
+        {
+          kernel(first / line, PoissonBlock(all, first / line), lines);
+        }
+      },
+      firstSlice);
   }
 
   // Loads lines along axis 0 of the density at nodes: masses over the nodes' shares of a cell.
   void LoadDensity(
-    const double* masses, std::int64_t first, const PoissonBlock& block, CosineLines& lines) const
+    const double* masses, std::int64_t first, const PoissonBlock& block, double* values) const
   {
     double factors[lanes];
     for (int i = 0; i < lanes; ++i)
     {
       factors[i] = 1.0 / shareOfRow<Dimension>(this->Grid, first + std::min(i, block.Count - 1));
     }
-    block.LoadScaled(masses, factors, lines.Values());
-    CosineLines::Complex* nodes = lines.Nodes();
-    // The two end nodes stand for half a cell.
-    nodes[0] *= Lanes(2.0);
-    nodes[block.Nodes - 1] *= Lanes(2.0);
+    for (std::int64_t j = 0; j < block.Nodes; ++j)
+    {
+      const double ends = j == 0 || j == block.Nodes - 1 ? 2.0 : 1.0; // they stand for half a cell
+      for (int i = 0; i < lanes; ++i)
+      {
+        values[j * lanes + i] = ends * factors[i] * masses[block.Begin[i] + j];
+      }
+    }
   }
 
   // The transform along the last axis, the division by the eigenvalues of the Laplacian, and the
@@ -264,8 +235,9 @@ struct NodePoisson<Dimension>::Implementation
   void TransformAndDivide(std::int64_t first, const PoissonBlock& block, CosineLines& lines) const
   {
     lines.Transform();
-    alignas(16) double others[lanes];
-    alignas(16) double atZero[lanes];
+    constexpr double scale = 1.0 / (1 << Dimension);
+    double* values = lines.Values();
+    double others[lanes];
     for (int i = 0; i < lanes; ++i)
     {
       std::int64_t line = first + std::min(i, block.Count - 1);
@@ -279,27 +251,23 @@ struct NodePoisson<Dimension>::Implementation
       }
       others[i] = sum;
       // Infinity divides the mean away: it is 0.
-      atZero[i] = sum > 0.0 ? sum : std::numeric_limits<double>::infinity();
+      values[i] *= scale / (sum > 0.0 ? sum : std::numeric_limits<double>::infinity());
     }
-    const Lanes scale(1.0 / (1 << Dimension));
-    const Lanes real = Lanes::Load(others);
-    const Lanes imaginary = Lanes::Load(others + Lanes::Count);
-    CosineLines::Complex* node = lines.Nodes();
-    *node = { node->real() * (scale / Lanes::Load(atZero)),
-      node->imag() * (scale / Lanes::Load(atZero + Lanes::Count)) };
     for (std::size_t k = 1; k < this->Eigenvalues[Last].size(); ++k)
     {
-      ++node;
-      const Lanes own(this->Eigenvalues[Last][k]);
-      *node = { node->real() * (scale / (real + own)), node->imag() * (scale / (imaginary + own)) };
+      values += lanes;
+      for (int i = 0; i < lanes; ++i)
+      {
+        values[i] *= scale / (others[i] + this->Eigenvalues[Last][k]);
+      }
     }
     lines.Transform();
   }
 
   const NodeGrid<Dimension> Grid;
   const std::int64_t Nodes;
-  const std::int64_t Chunk; // nodes: whole rows along axis 0
-  std::array<std::shared_ptr<CosineLinesPool>, Dimension> Pools;
+  const std::int64_t Chunk;                               // nodes: whole rows along axis 0
+  std::vector<FourierTransform> Fourier;                  // along each axis
   std::array<std::vector<double>, Dimension> Eigenvalues; // eigenvalues of -Laplace along each axis
   WeightedPoisson<Dimension> Weighted;
 };
