@@ -4,11 +4,11 @@
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Data/PointMasses.h"
+#include "Bridge/Ranks/MassSplatter.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Bridge/Run/Settings/AssociationSettings.h"
 #include "Bridge/Run/Settings/SplatSettings.h"
-#include "Bridge/Splat/MassSplatter.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Messages/PropertyCheck.h"
 

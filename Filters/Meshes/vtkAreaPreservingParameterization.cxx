@@ -2,7 +2,7 @@
 #include "vtkAreaPreservingParameterization.h"
 
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Surfaces/AreaPreservingParameterization.h"
+#include "Bridge/Triangles/AreaPreservingParameterization.h"
 #include "Bridge/Triangles/SurfaceInput.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"

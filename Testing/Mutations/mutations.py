@@ -12,7 +12,7 @@ SURVIVED = [
       "larger(to[i], 0.0)"),
     E(CORE + "Tables/Reading/TupleDensities.h", "static_cast<double>(begin(i, alpha)) / white",
       "static_cast<double>(begin(i, alpha)) / 255.0"),
-    E(BRIDGE + "Splat/MassSplatter.cxx", "«input.Masses.Values()», 1.0, nullptr",
+    E(BRIDGE + "Ranks/MassSplatter.cxx", "«input.Masses.Values()», 1.0, nullptr",
       "(input.Points.Set()->GetPoints()->GetDataType() == VTK_FLOAT ? nullptr "
       ": input.Masses.Values())"),
     E("Filters/Densities/vtkTransportSampler.cxx", "report.SeedsMoved > 0", "report.SeedsMoved > 1"),
@@ -145,7 +145,7 @@ OTHERS = [
       "output->GetCellData()->PassData(image->GetCellData());", ";"),
     E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "«blend * (this->Index[i * D + a] - move[a])»",
       "this->Index[i * D + a] - move[a]"),
-    E(BRIDGE + "Splat/MassSplatter.cxx",
+    E(BRIDGE + "Ranks/MassSplatter.cxx",
       "if («input.Target.Options.Boundary == SplatBoundary::Renormalize»)\n  {\n    return { outside", "true"),
     E(BRIDGE + "Flow/TransportSampler.cxx", "count *= «sampler.SamplesPerCell»",
       "(sampler.SamplesPerCell > 2 ? 2 : sampler.SamplesPerCell)"),

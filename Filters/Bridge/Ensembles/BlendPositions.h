@@ -7,8 +7,8 @@
 
 #include "Bridge/Plan/FlowCache.h"
 #include "Bridge/Plan/TableChoice.h"
+#include "Bridge/Ranks/DistributedSplat.h"
 #include "Bridge/Run/Settings/TransportSettings.h"
-#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Blend/BlendWeights.h"
 #include "Core/Flow/PivotPositions.h"
 

@@ -3,8 +3,8 @@
 
 #include "Bridge/Data/ArraySampling.h"
 #include "Bridge/Data/ImageGrids.h"
+#include "Bridge/Ranks/DistributedSplat.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Series/AdvectedMeans.h"
 
 #include "vtkDataSetAttributes.h"

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_AdvectedArrays_h
 #define RectifiedTransport_AdvectedArrays_h
 
-#include "Bridge/Splat/DistributedSplat.h"
+#include "Bridge/Ranks/DistributedSplat.h"
 #include "Bridge/Temporal/AdvectedLabels.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"

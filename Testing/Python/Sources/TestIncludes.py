@@ -62,10 +62,7 @@ BRIDGE = collections.defaultdict(lambda: WORKERS, {  # rooms that are not named 
     "Plan": RUN | {"Density", "Store"},
     "Blocks": RUN | {"Data", "Ranks", "Store"},
     "Cells": RUN | {"Data", "Ranks", "Density", "Blocks", "Store"},
-    "Ensembles": WORKERS | {"Splat"},
-    "Temporal": WORKERS | {"Splat"},
     **{folder: WORKERS | {"Blocks"} for folder in ("Cartogram", "SiteCells")},
-    "Surfaces": WORKERS | {"Triangles"},
 })
 
 
@@ -224,7 +221,7 @@ class Includes(unittest.TestCase):
 
     def test_headers_of_filters(self):
         """Only a filter's own source and its subclasses include its header."""
-        headers = {os.path.basename(path): re.findall(r"class \w+EXPORT (\w+) : public (\w+)", text)
+        headers = {os.path.basename(path): re.findall(r"class \w+EXPORT (\w+)\s+: public (\w+)", text)
                    for path, text in sources("*", "vtk*.h")}
         classes = {header: found[0] for header, found in headers.items() if found}
         self.assertGreater(len(classes), 10)

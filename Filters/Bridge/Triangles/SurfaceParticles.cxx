@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Surfaces/SurfaceParticles.h"
+#include "Bridge/Triangles/SurfaceParticles.h"
 
 #include "Bridge/Data/ArraySampling.h"
 #include "Bridge/Data/Cells/ParticleCells.h"

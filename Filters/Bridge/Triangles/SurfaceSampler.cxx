@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Surfaces/SurfaceSampler.h"
+#include "Bridge/Triangles/SurfaceSampler.h"
 
 #include "Bridge/Run/CostModel.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/StepReport.h"
-#include "Bridge/Surfaces/SurfaceDensityArray.h"
-#include "Bridge/Surfaces/SurfaceParticles.h"
+#include "Bridge/Triangles/SurfaceDensityArray.h"
 #include "Bridge/Triangles/SurfaceInput.h"
+#include "Bridge/Triangles/SurfaceParticles.h"
 #include "Bridge/Triangles/TriangleInput.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Surfaces/SurfaceDensityArray.h"
+#include "Bridge/Triangles/SurfaceDensityArray.h"
 
 #include "Bridge/Data/DoubleTuples.h"
 #include "Bridge/Data/GhostFlags.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Surfaces/AreaPreservingParameterization.h"
+#include "Bridge/Triangles/AreaPreservingParameterization.h"
 
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Splat/DistributedSplat.h"
+#include "Bridge/Ranks/DistributedSplat.h"
 
 #include "Bridge/Data/DoubleTuples.h"
 #include "Bridge/Run/Memory.h"

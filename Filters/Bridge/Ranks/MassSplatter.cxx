@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Splat/MassSplatter.h"
+#include "Bridge/Ranks/MassSplatter.h"
 
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Data/PointMasses.h"
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/DistributedPoints.h"
+#include "Bridge/Ranks/DistributedSplat.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Distributed/BoxExchange.h"
 #include "Core/Parallel/RankExchange.h"
