@@ -4,7 +4,7 @@ from paraview.simple import *
 
 scan = XMLImageDataReader(registrationName="Scan", FileName=["Testing/Data/brain-t1.vti"])
 cut = ExtractSubset(scan, registrationName="Cut", VOI=[0, 89, 0, 107, 40, 40])
-bend = TransportMap(cut, registrationName="SecondDifference")
+bend = TransportMap(cut, registrationName="Bend")
 bend.SampleDimensions = [91, 109, 1]
 bend.UpdatePipeline()
 grid = WarpByVector(bend, registrationName="Grid", Vectors=["POINTS", "Displacement"])
