@@ -49,16 +49,14 @@ struct NodeMap
 };
 
 // Writes x - grad potential(x) at the nodes, by central differences, clamped to the box; from and
-// to
-// physical lengths by the grid's spacing. Adds a unit of work for each node and axis. Throws
+// to physical lengths by the grid's spacing. Adds a unit of work for each node and axis. Throws
 // Cancelled. The map has memory already.
 template <int Dimension>
 void writeGradientMap(const double* potential, NodeMap<Dimension>& map, Progress& progress);
 
 // Smooths the images of each node and its neighbours by the weights 1/4, 1/2, 1/4 along each axis:
 // a potential that is transformed on nodes has a gradient that forms stairs. Nodes at the ends of
-// an axis keep theirs
-// along it. Adds units of work. Throws Cancelled.
+// an axis keep theirs along it. Adds units of work. Throws Cancelled.
 template <int Dimension>
 void smoothMap(NodeMap<Dimension>& map, Progress& progress);
 
@@ -116,8 +114,7 @@ public:
   }
 
   // Calls visit(sample, image) for each sample of the row's cells with mass; `masses` are those of
-  // all
-  // cells, null if each has the mass 1.
+  // all cells, null if each has the mass 1.
   template <class Visit>
   void ForRow(std::int64_t row, const double* masses, const Visit& visit)
   {
