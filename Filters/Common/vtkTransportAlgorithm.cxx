@@ -25,7 +25,7 @@ const char* const DeviceTexts[] = { "CPU", "OpenCL" };
 struct vtkTransportAlgorithm::vtkDevice
 {
   std::string Name;
-  CachedDevice Kept;
+  CachedDevice Cached;
   vtkNew<vtkStringArray> Names; // that were asked for last
 };
 
@@ -98,14 +98,14 @@ DeviceUse vtkTransportAlgorithm::BeginDevice()
     this->TableLookup == INTERPOLATED;
   if (this->Device != DEVICE_OPENCL || !serves)
   {
-    this->OwnDevice->Kept.Release();
+    this->OwnDevice->Cached.Release();
     return DeviceUse(std::shared_ptr<FlowDevice>());
   }
   // Ranks that run by themselves cannot ask each other for their machines.
   const Ranks& ranks = this->GetRanks();
   const int number =
     ranks.AreSeveral() ? placeOnMachine(ranks, machineOfRank()) : pieceOfRank().Number;
-  return this->OwnDevice->Kept.Begin(this->OwnDevice->Name, number);
+  return this->OwnDevice->Cached.Begin(this->OwnDevice->Name, number);
 }
 
 //------------------------------------------------------------------------------

@@ -63,7 +63,7 @@ int vtkBlueNoiseRelaxation::RequestData(
   {
     return 1;
   }
-  const CountedPoints counted(input, "input point set");
+  const NonGhostPoints counted(input, "input point set");
   requireReadableCells(input, "input");
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   output->CopyStructure(input);

@@ -57,9 +57,9 @@ struct vtkTransportDistance::vtkInternals
 {
   DensityDistances Distances;
   IndexedList<std::string> Names{ "input names", "number of a connection", "" };
-  std::size_t Step = 0;     // the next time step, for OverTime
-  bool HasAll = true;       // whether no input of this run is empty
-  std::vector<double> Told; // the masses of the last warning
+  std::size_t Step = 0;       // the next time step, for OverTime
+  bool HasAll = true;         // whether no input of this run is empty
+  std::vector<double> Warned; // the masses of the last warning
 };
 
 //------------------------------------------------------------------------------
@@ -329,11 +329,11 @@ void vtkTransportDistance::CheckMasses()
     throw Failure(text + "; MassDifference Normalize divides each by its mass");
   }
   // The same masses get no second warning, as where only another property changes.
-  if (excess > worthWarning && masses != this->Internals->Told)
+  if (excess > worthWarning && masses != this->Internals->Warned)
   {
     this->WarnOnFirstRank(text + "; each is divided by its mass");
   }
-  this->Internals->Told = masses;
+  this->Internals->Warned = masses;
 }
 
 //------------------------------------------------------------------------------

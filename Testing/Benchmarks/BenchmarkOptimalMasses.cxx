@@ -287,7 +287,7 @@ template <int D>
 struct SolvedPair
 {
   explicit SolvedPair(const OptimalPair<D>& pair)
-    : IsStill(pair.IsStill)
+    : IsFixed(pair.IsFixed)
     , Source(pair.Source())
     , Target(pair.Target())
     , From(stratifiedSamples<D>(this->Source, 1))
@@ -317,7 +317,7 @@ struct SolvedPair
     }
   }
 
-  std::function<bool(const Point<D>&)> IsStill;
+  std::function<bool(const Point<D>&)> IsFixed;
   TestDensity<D> Source;
   TestDensity<D> Target;
   Particles<D> From;
@@ -349,7 +349,7 @@ void report(benchmark::State& state, const SolvedPair<D>& pair, const Particles<
       start[axis] /= side;
     }
     cost += square / (side * side) / static_cast<double>(images.size());
-    if (pair.IsStill && pair.IsStill(start))
+    if (pair.IsFixed && pair.IsFixed(start))
     {
       still += 1.0;
       ways += std::sqrt(square);

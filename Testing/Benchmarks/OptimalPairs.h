@@ -30,7 +30,7 @@ struct OptimalPair
     : Name(std::move(name))
     , Source(std::move(source))
     , Target(std::move(target))
-    , IsStill(std::move(isFixed))
+    , IsFixed(std::move(isFixed))
   {
   }
 
@@ -38,7 +38,7 @@ struct OptimalPair
   DensityMaker<Dimension> Source;
   DensityMaker<Dimension> Target;
   // Whether a point of the unit box belongs to a part that is the same in both; or empty.
-  Choice IsStill;
+  Choice IsFixed;
 };
 
 // A plane cuts solids in the middle.

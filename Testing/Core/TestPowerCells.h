@@ -43,7 +43,7 @@ inline PolygonMoments rowMomentsOf(const RowMoments& rows, const Points<2>& poly
   {
     rows.AddSide(polygon[k], polygon[(k + 1) % polygon.size()], origin, moments);
   }
-  return moments.MovedBy(rows.CornerOf(origin));
+  return moments.Translated(rows.CornerOf(origin));
 }
 
 // Of the density 1, as a fan of triangles: exact by the midpoints of their sides.

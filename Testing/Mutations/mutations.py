@@ -217,7 +217,7 @@ OTHERS = [
     E(BRIDGE + "Run/Inputs/SeparateInputs.cxx", "std::clamp(«branch.Source.Times.First»,", "times->First"),
     E(BRIDGE + "Run/Inputs/SeparateInputs.cxx", "return «one.Upstream.size() > other.Upstream.size()»",
       "one.Upstream.size() < other.Upstream.size()"),
-    E(BRIDGE + "Run/Inputs/SeparateInputs.cxx", "if («hasWrongTime(filter, port)»)", "false"),
+    E(BRIDGE + "Run/Inputs/SeparateInputs.cxx", "if («isMistimed(filter, port)»)", "false"),
     E(BRIDGE + "Run/Pipeline/InputFields.cxx", "if («given.count(array) == 0»)", "false"),
     S(BRIDGE + "Run/Pipeline/RequestedTimes.cxx",
       "time = output->Get(Pipeline::UPDATE_TIME_STEP());", ""),

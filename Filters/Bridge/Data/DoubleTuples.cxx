@@ -16,7 +16,7 @@ DoubleTuples::DoubleTuples(vtkDataArray* array, Progress& progress)
   this->Copy(array, array->GetNumberOfTuples(), progress, [](std::int64_t i) { return i; });
 }
 
-DoubleTuples::DoubleTuples(vtkDataArray* array, const CountedPoints& counted, Progress& progress)
+DoubleTuples::DoubleTuples(vtkDataArray* array, const NonGhostPoints& counted, Progress& progress)
 {
   this->Copy(
     array, counted.Count(), progress, [&counted](std::int64_t i) { return counted.Point(i); });

@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport::Bridge
 {
 
-class CountedPoints;
+class NonGhostPoints;
 
 class DoubleTuples
 {
@@ -25,7 +25,7 @@ public:
   // Throws Failure if memory is short, and Cancelled.
   DoubleTuples(vtkDataArray* array, Progress& progress);
   // The tuples of the points that are not ghosts, of an array with a tuple for every point.
-  DoubleTuples(vtkDataArray* array, const CountedPoints& counted, Progress& progress);
+  DoubleTuples(vtkDataArray* array, const NonGhostPoints& counted, Progress& progress);
 
   const double* data() const { return this->Values; }
 

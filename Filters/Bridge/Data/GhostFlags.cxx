@@ -33,13 +33,13 @@ const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what)
   return array->GetPointer(0);
 }
 
-CountedPoints::CountedPoints(vtkDataSet* points, const char* what, unsigned char ghosts)
-  : CountedPoints(
+NonGhostPoints::NonGhostPoints(vtkDataSet* points, const char* what, unsigned char ghosts)
+  : NonGhostPoints(
       points->GetNumberOfPoints(), ghostFlags(points, vtkDataObject::POINT, what), ghosts)
 {
 }
 
-CountedPoints::CountedPoints(std::int64_t all, const unsigned char* flags, unsigned char ghosts)
+NonGhostPoints::NonGhostPoints(std::int64_t all, const unsigned char* flags, unsigned char ghosts)
   : Number(all)
 {
   const auto isGhost = [ghosts](unsigned char flag) { return (flag & ghosts) != 0; };

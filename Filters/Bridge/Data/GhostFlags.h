@@ -32,13 +32,13 @@ const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
 constexpr BlankingFlags blankingFlags = { vtkDataSetAttributes::HIDDENPOINT, ghostCell };
 
 // The points of a data set without these ghost flags, numbered from 0 in their order.
-class CountedPoints
+class NonGhostPoints
 {
 public:
   // Throws Failure as above, and if memory is short.
-  CountedPoints(vtkDataSet* points, const char* what, unsigned char ghosts = ghostPoint);
+  NonGhostPoints(vtkDataSet* points, const char* what, unsigned char ghosts = ghostPoint);
   // `all` points except those with such a flag; `flags` may be nullptr.
-  CountedPoints(std::int64_t all, const unsigned char* flags, unsigned char ghosts);
+  NonGhostPoints(std::int64_t all, const unsigned char* flags, unsigned char ghosts);
 
   std::int64_t Count() const { return this->Number; }
   // The index of the point with this number.

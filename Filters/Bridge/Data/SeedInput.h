@@ -22,7 +22,7 @@ namespace RectifiedTransport::Bridge
 // domain's size, the error of single precision. Throws Failure for coordinates that are not finite,
 // naming the input as `what`, and Cancelled.
 template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
+std::int64_t readSeeds(vtkPointSet* points, const NonGhostPoints& counted, const std::string& what,
   const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
 {
   std::atomic<std::int64_t> moved{ 0 };

@@ -36,9 +36,9 @@ public:
     this->Known = this->Inner->Suspect();
     this->Empty = this->Inner->EmptyDensity();
     const DensityValues* values = this->Inner->Values();
-    this->Made = values ? this->Grow({ std::shared_ptr<void>(), values }) : nullptr;
+    this->Padded = values ? this->Pad({ std::shared_ptr<void>(), values }) : nullptr;
   }
-  const DensityValues* Values() const override { return this->Made.get(); }
+  const DensityValues* Values() const override { return this->Padded.get(); }
   std::shared_ptr<const DensityValues> Part(
     const GridSize<3>& low, const GridSize<3>& high) const override
   {
@@ -55,14 +55,14 @@ public:
       first[a] = common.Low[a] - this->Box.Low[a];
       end[a] = first[a] + common.Cells[a];
     }
-    return this->Grow(this->Inner->Part(first, end));
+    return this->Pad(this->Inner->Part(first, end));
   }
   void ReleaseGathered() override
   {
     this->Inner->ReleaseGathered();
     if (!this->Inner->Values())
     {
-      this->Made.reset();
+      this->Padded.reset();
     }
   }
 
@@ -96,7 +96,7 @@ private:
     return this->Inner->Hash(progress);
   }
 
-  std::shared_ptr<const DensityValues> Grow(std::shared_ptr<const DensityValues> inner) const
+  std::shared_ptr<const DensityValues> Pad(std::shared_ptr<const DensityValues> inner) const
   {
     return std::make_shared<PaddedValues>(
       std::move(inner), this->Box, this->CellsInSpace(), this->Empty);
@@ -115,7 +115,7 @@ private:
 
   const std::unique_ptr<InputDensity> Inner;
   const LatticePart<3> Box; // the cells of the inner density
-  std::shared_ptr<const DensityValues> Made;
+  std::shared_ptr<const DensityValues> Padded;
 };
 
 } // namespace

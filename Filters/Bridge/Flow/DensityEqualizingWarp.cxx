@@ -181,7 +181,7 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
       { "areas", equalizes ? Cost::equalization(options, D) * gridCells : 0.0 },
       { "correction", equalizes ? Cost::Seed * count : 0.0 },
       { "cost", optimal.NeedsMap() ? Cost::flow(options, D) * gridCells : 0.0 },
-      { "write", Cost::Seed * count }, { "inverted cells", Cost::TurnedCell * inputCells } });
+      { "write", Cost::Seed * count }, { "inverted cells", Cost::InvertedCell * inputCells } });
   // Memory for the points is taken before the tables, which take longer.
   WarpedPoints<D> points(density.Grid(), input);
   const FlowTables tables = requireTables(chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
@@ -190,7 +190,7 @@ DensityEqualizingWarp::Report warp(const DensityEqualizingWarp& settings, InputD
   const SharedFlow& shared = cache.Update(density, stages["tables"], tables, { optimal });
   if (!equalizes)
   {
-    cache.ForgetCorrection();
+    cache.ClearCorrection();
   }
   DensityEqualizingWarp::Report report;
   report.Outside = points.Read(stages["reading"]);

@@ -22,7 +22,7 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   , OwnPart(LatticePart<D>::WholeOf(this->Lattice))
   , Wanted(this->OwnPart)
   , Measured(this->OwnPart)
-  , Kept(this->OwnPart)
+  , Stored(this->OwnPart)
 {
   // A single rank computes, keeps and writes the whole lattice: all parts above are the same one.
   if (ranks.AreSeveral())
@@ -32,10 +32,10 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   constexpr double real = sizeof(double);
   // Positions take D doubles a kept sample and displacements 3 a wanted one, which in 3D share
   // memory; the scalars are Divergence, JacobianDeterminant and, with a target, CostDensity.
-  const double kept = numberOfCells<D>(this->Kept.Cells) + static_cast<double>(this->Ahead);
+  const double stored = numberOfCells<D>(this->Stored.Cells) + static_cast<double>(this->Ahead);
   const double count = numberOfCells<D>(this->Wanted.Cells);
-  const double vectors = D == 3 ? std::max(kept, count) : count;
-  const double scratch = D == 3 ? 0.0 : real * D * kept;
+  const double vectors = D == 3 ? std::max(stored, count) : count;
+  const double scratch = D == 3 ? 0.0 : real * D * stored;
   const double scalars = hasTarget ? 3.0 : 2.0;
   requireMemory({ purpose, real * (3.0 * vectors + scalars * count) + scratch });
   // The output gets this array itself in Write, so that displacements are not copied.
@@ -43,12 +43,12 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   if (D != 3)
   {
     withMemory({ purpose, scratch },
-      [&]() { this->PositionBuffer = LargeBuffer<double>(this->Kept.Count() * D); });
+      [&]() { this->PositionBuffer = LargeBuffer<double>(this->Stored.Count() * D); });
   }
 }
 
 // Divides the samples as VTK divides extents; points at common faces belong to the upper piece.
-// Finite differences need the neighbours of wanted samples, so Kept surrounds them.
+// Finite differences need the neighbours of wanted samples, so Stored surrounds them.
 template <int D>
 void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks)
 {
@@ -87,10 +87,10 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
   this->Wanted = latticePartOf<D>(wanted, samples);
   this->Measured = this->OwnPart.Around(this->Lattice)
                      .With(MapBlocks<D>::SamplesOf(MapBlocks<D>::Of(this->Lattice, this->OwnPart)));
-  this->Kept = this->Wanted.Around(this->Lattice).With(this->Measured);
+  this->Stored = this->Wanted.Around(this->Lattice).With(this->Measured);
   // Displacements are written layer by layer where positions of layers before were.
   const int last = D - 1;
-  if (D == 3 && this->Wanted.Count() > 0 && this->Kept.Low[last] == this->Wanted.Low[last])
+  if (D == 3 && this->Wanted.Count() > 0 && this->Stored.Low[last] == this->Wanted.Low[last])
   {
     this->Ahead = this->Wanted.Count() / this->Wanted.Cells[last];
   }
@@ -115,10 +115,10 @@ TupleBox MapField<D>::BoxOf(const LatticePart<D>& part) const
 template <int D>
 PointSpan<D> MapField<D>::Positions()
 {
-  // Shape: (samples in Kept) x D doubles, axis 0 of the lattice fastest.
+  // Shape: (samples in Stored) x D doubles, axis 0 of the lattice fastest.
   double* first =
     D == 3 ? this->Displacement->GetPointer(3 * this->Ahead) : this->PositionBuffer.data();
-  return { first, this->Kept.Count() };
+  return { first, this->Stored.Count() };
 }
 
 // What derivatives at the border of the wanted samples depend on, and figures of this rank's.
@@ -129,7 +129,7 @@ void MapField<D>::Complete()
   for (const LatticePart<D>& part : { this->Wanted.Around(this->Lattice), this->Measured })
   {
     completeBoxes(
-      this->Held, this->BoxOf(part), this->BoxOf(this->Kept), this->Processes, positions);
+      this->Held, this->BoxOf(part), this->BoxOf(this->Stored), this->Processes, positions);
   }
 }
 
@@ -151,7 +151,7 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   auto determinants = newArray<vtkDoubleArray>("JacobianDeterminant", 1, count);
   auto costs = newArray<vtkDoubleArray>("CostDensity", 1, target ? count : 0);
   const MapFigures figures = writeMap<D>(
-    { this->Geometry, this->Lattice, this->OwnPart, this->Wanted, this->Kept, this->Positions() },
+    { this->Geometry, this->Lattice, this->OwnPart, this->Wanted, this->Stored, this->Positions() },
     flow, direction, density, target,
     { this->Displacement->GetPointer(0), divergences->GetPointer(0), determinants->GetPointer(0),
       costs->GetPointer(0) },

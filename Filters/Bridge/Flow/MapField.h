@@ -34,7 +34,7 @@ public:
   // The part that this rank computes.
   const LatticePart<D>& Part() const { return this->OwnPart; }
   // The own part, with the numbers of its positions.
-  LatticeParts<D> Parts() const { return { this->OwnPart, this->Kept }; }
+  LatticeParts<D> Parts() const { return { this->OwnPart, this->Stored }; }
   // The mapped samples, in index space.
   PointSpan<D> Positions();
 
@@ -56,7 +56,7 @@ private:
   LatticePart<D> OwnPart;
   LatticePart<D> Wanted;
   LatticePart<D> Measured; // what the figures of the own part depend on
-  LatticePart<D> Kept;
+  LatticePart<D> Stored;
   std::int64_t Ahead = 0;     // tuples in the memory before the positions
   std::vector<TupleBox> Held; // the box that each rank holds
   std::array<int, 3> Start{}; // where the lattice begins in the image

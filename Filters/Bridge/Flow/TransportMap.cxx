@@ -227,7 +227,7 @@ private:
     };
     const SharedFlow& shared =
       update(this->Cache, this->Density, this->Target->SourceName, tables, stages["tables"]);
-    this->Cache.ForgetMaps(); // to the uniform measure
+    this->Cache.ClearMaps(); // to the uniform measure
     update(this->Target->Cache.Tables, this->Target->Density, this->Target->Name,
       this->Tables(this->Target->Density, FlowDirection::Forward, false), stages["target tables"]);
     return shared;
@@ -308,7 +308,7 @@ private:
     // cells.
     if (!this->Equalizes)
     {
-      this->Cache.ForgetCorrection();
+      this->Cache.ClearCorrection();
       return 0;
     }
     // The correction moves the images of the cells' corners towards areas in proportion to the

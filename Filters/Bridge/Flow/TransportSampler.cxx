@@ -144,7 +144,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   TransportSampler::Report report;
   if (given)
   {
-    report.SeedsMoved = readSeeds<D>(given, CountedPoints(given->GetNumberOfPoints(), nullptr, 0),
+    report.SeedsMoved = readSeeds<D>(given, NonGhostPoints(given->GetNumberOfPoints(), nullptr, 0),
       "input Seeds", grid, stages["seeds"], particles.Seeds(), particles.PhysicalSeeds());
   }
   else

@@ -79,7 +79,7 @@ std::shared_ptr<SharedFlow> FlowCache::Build(InputDensity& density, FlowTables t
   const OptimalNeeds& needs, std::shared_ptr<SharedFlow> previous, Progress& progress)
 {
   // Maps and corrections belong to the old tables, and their memory is needed for the new ones.
-  this->ForgetMaps();
+  this->ClearMaps();
   if (needs.Setting.NeedsMap())
   {
     // With the map's memory the tables' is asked for, unless those before leave theirs.

@@ -52,22 +52,22 @@ public:
   }
 
   // After Update, with whole tables: by what points that a plan takes back have to be corrected for
-  // equal areas. Kept until other options, another density or ForgetCorrection. Not collective.
+  // equal areas. Kept until other options, another density or ClearCorrection. Not collective.
   // Throws Failure and Cancelled.
   template <int D>
   std::shared_ptr<const AreaCorrection<D>> Correction(const TransportPlan<D>& plan,
     const OptimalSetting& setting, const FlowOptions& options, Progress& progress);
-  void ForgetCorrection() { this->Areas.Release(); }
-  void ForgetMaps()
+  void ClearCorrection() { this->Areas.Release(); }
+  void ClearMaps()
   {
-    this->ForgetCorrection();
+    this->ClearCorrection();
     this->Map.Release();
   }
 
   // Releases this filter's references to the tables and what was made for them.
   void Release()
   {
-    this->ForgetMaps();
+    this->ClearMaps();
     this->Tables.Release();
   }
 

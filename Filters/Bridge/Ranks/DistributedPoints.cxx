@@ -71,7 +71,7 @@ bool connectsPoints(vtkPointSet* set)
 // else one at the same place. Empty for points that no line, face or cell connects on any rank:
 // these are particles, of which two may be at one place.
 std::vector<unsigned char> repeatedIn(
-  vtkPointSet* own, const CountedPoints& counted, const Ranks& ranks)
+  vtkPointSet* own, const NonGhostPoints& counted, const Ranks& ranks)
 {
   if (onAllRanks(ranks, !connectsPoints(own)))
   {
@@ -107,7 +107,7 @@ vtkSmartPointer<vtkPointSet> countedSet(vtkPointSet* own, const Ranks& ranks)
 struct CopyIntegers
 {
   template <class ArrayT>
-  void operator()(ArrayT* array, const CountedPoints& counted, std::int64_t* to) const
+  void operator()(ArrayT* array, const NonGhostPoints& counted, std::int64_t* to) const
   {
     const auto values = vtk::DataArrayValueRange<1>(array);
     for (std::int64_t i = 0; i < counted.Count(); ++i)
@@ -126,7 +126,7 @@ std::array<vtkDataArray*, 2> keyArrays(vtkPointSet* points)
 {
   vtkPointData* data = points->GetPointData();
   std::array<vtkDataArray*, 2> arrays = { data->GetArray("SeedId"), data->GetGlobalIds() };
-  const CountedPoints none(vtkNew<vtkPolyData>(), "input point set");
+  const NonGhostPoints none(vtkNew<vtkPolyData>(), "input point set");
   for (vtkDataArray*& array : arrays)
   {
     // A copy of no values tells whether the dispatch knows the array's type.
@@ -143,10 +143,10 @@ std::array<vtkDataArray*, 2> keyArrays(vtkPointSet* points)
 }
 
 // The points without these flags that are not those of a lower rank, too.
-CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& ranks)
+NonGhostPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& ranks)
 {
   // Ghost flags come first: they cost no message.
-  CountedPoints counted(points, "input point set", ghosts);
+  NonGhostPoints counted(points, "input point set", ghosts);
   // Particles, and their paths, have a number each.
   if (!ranks.AreSeveral() ||
     onAllRanks(ranks, points->GetNumberOfPoints() == 0 || keyArrays(points).front()))
@@ -185,7 +185,7 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
     return given;
   }
   const vtkSmartPointer<vtkPointSet> set = countedSet(given, ranks);
-  const CountedPoints counted = countedOf(set, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
+  const NonGhostPoints counted = countedOf(set, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
   const auto count = static_cast<vtkIdType>(counted.Count());
   // In the usual case all points count, and nothing is copied.
   if (count == set->GetNumberOfPoints())

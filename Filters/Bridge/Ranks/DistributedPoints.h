@@ -33,7 +33,7 @@ public:
 
   // This rank's points; without points if none count.
   vtkPointSet* Set() const { return this->Points; }
-  const CountedPoints& Counted() const { return this->Number; }
+  const NonGhostPoints& Counted() const { return this->Number; }
   // The number of points of all ranks.
   std::int64_t All() const { return this->Total; }
   // One for each counted point; nullptr if the order is that of the ranks and their points.
@@ -45,7 +45,7 @@ private:
   void FindKeys(const Ranks& ranks);
 
   vtkSmartPointer<vtkPointSet> Points;
-  CountedPoints Number;
+  NonGhostPoints Number;
   std::int64_t Total;
   LargeBuffer<std::int64_t> Order;
 };

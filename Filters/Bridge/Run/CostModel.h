@@ -18,7 +18,7 @@ constexpr double MassShare = 150.0;    // a sample in 3D, with its other arrays
 constexpr double MeanAndSplat = 60.0;  // a particle of a blend
 constexpr double Comparison = 4000.0;  // a particle and a density
 constexpr double Relaxation = 20000.0; // a point, in each iteration
-constexpr double TurnedCell = 200.0;   // a vtkCell, to find whether it turned over
+constexpr double InvertedCell = 200.0; // a vtkCell, to find whether it turned over
 constexpr double Reading = 2.0;        // a cell's value
 constexpr double OptimalCell = 1500.0; // a cell of an optimal map
 

@@ -39,7 +39,7 @@ template <int D>
 class PlacedPoints
 {
 public:
-  PlacedPoints(const ImageGrid& grid, const CountedPoints& counted)
+  PlacedPoints(const ImageGrid& grid, const NonGhostPoints& counted)
     : Grid(grid)
     , Counted(counted)
   {
@@ -86,7 +86,7 @@ public:
 
 private:
   const ImageGrid& Grid;
-  const CountedPoints& Counted;
+  const NonGhostPoints& Counted;
   vtkSmartPointer<vtkDoubleArray> Points;
   LargeBuffer<double> Index;
 };
@@ -144,7 +144,7 @@ RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const InputDen
 
 template <int D>
 BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDensity& density,
-  vtkPointSet* input, const CountedPoints& counted, FlowCache& cache, Progress& progress,
+  vtkPointSet* input, const NonGhostPoints& counted, FlowCache& cache, Progress& progress,
   vtkPointSet* output)
 {
   const auto cells = static_cast<double>(density.Grid().NumberOfCells());
@@ -195,7 +195,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
 } // namespace
 
 BlueNoiseRelaxation::Report BlueNoiseRelaxation::Run(InputDensity& density, vtkPointSet* input,
-  const CountedPoints& counted, FlowCache& cache, Progress& progress, vtkPointSet* output) const
+  const NonGhostPoints& counted, FlowCache& cache, Progress& progress, vtkPointSet* output) const
 {
   const int dimension = density.Grid().Dimension();
   if (dimension == 1)

@@ -36,7 +36,7 @@ struct BlueNoiseRelaxation
   // Sets the points of an output that already has the rest of the input. Ghosts stay where they
   // are. Tables are kept in the cache; relaxation by transport needs none. Throws Failure and
   // Cancelled.
-  Report Run(InputDensity& density, vtkPointSet* input, const CountedPoints& counted,
+  Report Run(InputDensity& density, vtkPointSet* input, const NonGhostPoints& counted,
     FlowCache& cache, Progress& progress, vtkPointSet* output) const;
 };
 

@@ -66,7 +66,7 @@ vtkSmartPointer<vtkDataArray> findArray(vtkPointSet* particles, const char* name
 class ParticleArrays
 {
 public:
-  ParticleArrays(vtkPointSet* particles, const CountedPoints& counted, const Ranks& group)
+  ParticleArrays(vtkPointSet* particles, const NonGhostPoints& counted, const Ranks& group)
     : Counted(counted)
     , Group(group)
     , Particles(particles)
@@ -173,7 +173,7 @@ private:
     });
   }
 
-  const CountedPoints& Counted;
+  const NonGhostPoints& Counted;
   const Ranks& Group;
   vtkPointSet* Particles;
   vtkSmartPointer<vtkDataArray> MassArray;
@@ -223,7 +223,7 @@ FlowTables choose(TableSetting setting, const ImageGrid& grid, std::int64_t part
 ParticleQuality TransportQuality::Run(const DistributedPoints& particles, InputDensity& density,
   FlowCache& cache, Progress& progress) const
 {
-  const CountedPoints& counted = particles.Counted();
+  const NonGhostPoints& counted = particles.Counted();
   // Most of the time goes to the neighbours of particles and to the density's share around each.
   const double all = Cost::Comparison * static_cast<double>(counted.Count());
   Stages stages(progress,

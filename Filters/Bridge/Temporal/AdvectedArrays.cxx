@@ -97,7 +97,7 @@ void AdvectedArrays::Make(const AdvectedImage& first, const AdvectedImage& secon
   const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress)
 {
   this->Arrays.clear();
-  this->Lacking.clear();
+  this->MissingNames.clear();
   for (const int owner : { vtkDataObject::CELL, vtkDataObject::POINT })
   {
     this->MakeOf(owner, first, second, particles, geometry, progress);
@@ -129,7 +129,7 @@ void AdvectedArrays::MakeOf(int owner, const AdvectedImage& first, const Advecte
       vtkAbstractArray* there = find(*other, array->GetName());
       const bool isSame = there && there->GetDataType() == array->GetDataType() &&
         there->GetNumberOfComponents() == array->GetNumberOfComponents();
-      std::vector<std::string>& list = isSame ? names : this->Lacking;
+      std::vector<std::string>& list = isSame ? names : this->MissingNames;
       // Both images name it, but it is wanted once.
       if (std::find(list.begin(), list.end(), array->GetName()) == list.end())
       {

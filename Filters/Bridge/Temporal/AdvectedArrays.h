@@ -48,7 +48,7 @@ public:
   void Make(const AdvectedImage& first, const AdvectedImage& second,
     const SeriesParticles& particles, const ImageGrid& geometry, Progress& progress);
   // The names of arrays that one of the two lacks.
-  const std::vector<std::string>& Missing() const { return this->Lacking; }
+  const std::vector<std::string>& Missing() const { return this->MissingNames; }
   // Adds the arrays on an extent of the image. Collective.
   void Write(const SeriesSnapshot& moment, const ImageGrid& geometry, const SplatOptions& splat,
     const Extent& wanted, Progress& progress, vtkImageData* output) const;
@@ -70,7 +70,7 @@ private:
 
   std::vector<Advected> Arrays;
   std::array<AdvectedLabels, 2> Labels; // cells, then points
-  std::vector<std::string> Lacking;
+  std::vector<std::string> MissingNames;
 };
 
 } // namespace RectifiedTransport::Bridge

@@ -19,7 +19,7 @@ public:
   {
   }
 
-  void Forget() { this->Pairs.clear(); }
+  void Reset() { this->Pairs.clear(); }
   bool IsEmpty() const { return this->Pairs.empty(); }
   // Adds a step and the change of the gradient over it, if the curvature along it is positive.
   void Add(const std::vector<double>& step, const std::vector<double>& change, Progress& progress);

@@ -126,7 +126,7 @@ public:
       {
         break;
       }
-      const CartogramPass& done = this->Judge();
+      const CartogramPass& done = this->Evaluate();
       // `stuck` is the largest error of regions at their least density, `others` that of all other
       // regions.
       double stuck = 0.0;
@@ -338,7 +338,7 @@ private:
         this->Flow->Backward(ConstPointSpan<2>(before.Places()), moved, options, flows.Next());
       before.Move(moved, points);
       pass.NumberOfSteps = report.NumberOfSteps;
-      this->CountTurnedRings(ringAreas);
+      this->CountInvertedRings(ringAreas);
       if (this->Found.Folded == 0)
       {
         break;
@@ -359,7 +359,7 @@ private:
     return true;
   }
 
-  // The area of each ring, by which CountTurnedRings finds rings that turn over.
+  // The area of each ring, by which CountInvertedRings finds rings that turn over.
   std::vector<double> RingAreas() const
   {
     std::vector<double> areas;
@@ -371,7 +371,7 @@ private:
   }
 
   // Counts the rings that had an area and now have none, or a negative one.
-  void CountTurnedRings(const std::vector<double>& before)
+  void CountInvertedRings(const std::vector<double>& before)
   {
     // In squares of a cell.
     constexpr double rounding = 1e-9;
@@ -422,7 +422,7 @@ private:
   }
 
   // Measures the errors after a pass, and names the region with the largest one.
-  const CartogramPass& Judge()
+  const CartogramPass& Evaluate()
   {
     this->FindErrors();
     CartogramPass& pass = this->Found.Passes.back();

@@ -76,8 +76,8 @@ double stressOf(const std::vector<double>& distances, const ScaledPoints& points
       double square = 0.0;
       for (std::size_t k = 0; k < axes; ++k)
       {
-        const double way = points.Coordinates[i * axes + k] - points.Coordinates[j * axes + k];
-        square += way * way;
+        const double offset = points.Coordinates[i * axes + k] - points.Coordinates[j * axes + k];
+        square += offset * offset;
       }
       const double d = distances[i * count + j];
       // Squared deviations of the distances, relative to the squared distances.

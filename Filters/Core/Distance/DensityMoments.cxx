@@ -119,8 +119,8 @@ double leastSquaredDistance(const DensityMoments& a, const DensityMoments& b)
   double square = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double way = a.Mean[axis] - b.Mean[axis];
-    square += way * way;
+    const double offset = a.Mean[axis] - b.Mean[axis];
+    square += offset * offset;
   }
   const Matrix first = matrixOf(a);
   const Matrix second = matrixOf(b);

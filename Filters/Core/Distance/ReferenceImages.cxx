@@ -101,9 +101,9 @@ double meanSquaredDistance(const ReferenceImages& a, const ReferenceImages& b)
   {
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
-      const double way =
+      const double offset =
         p[i + static_cast<std::int64_t>(lane)] - q[i + static_cast<std::int64_t>(lane)];
-      sums[lane] += way * way;
+      sums[lane] += offset * offset;
     }
   }
   double sum = 0.0;

@@ -169,14 +169,14 @@ private:
           {
             this->Kernels.Areas(rows.AtCells(row, false), areas.data());
             this->RowSums[static_cast<std::size_t>(row)] =
-              this->Judge(row, targets + row * cells, areas.data());
+              this->Evaluate(row, targets + row * cells, areas.data());
           }
         }
       });
   }
 
   // A row's cells: which of the guarded ones fail, and the sums.
-  AreaSums Judge(std::int64_t cellRow, const float* targets, const double* areas)
+  AreaSums Evaluate(std::int64_t cellRow, const float* targets, const double* areas)
   {
     const std::int64_t cells = this->Lattice.Cells()[0];
     unsigned char* states = this->States.data() + cellRow * cells;

@@ -37,8 +37,8 @@ public:
   // |a - b|^2 in squared units.
   double SquaredDistanceInUnits(const double* a, const double* b) const
   {
-    const double way[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-    return this->SquareInUnits(way);
+    const double offset[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+    return this->SquareInUnits(offset);
   }
 
   double LengthFromUnits(double length) const { return std::ldexp(length, this->Exponent); }

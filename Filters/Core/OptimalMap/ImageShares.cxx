@@ -27,7 +27,7 @@ struct CellsAbout
   std::int64_t Cell[Count] = { 0 };
   double Mass[Count];
   double Square[Count] = { 0.0 }; // squared ways from the source cell, in squared diagonals
-  double Ways[Dimension][2];      // to the lower and higher cells, in parts of the whole grid
+  double Offsets[Dimension][2];   // to the lower and higher cells, in parts of the whole grid
   double Spread = 0.0; // the mean square of the ways from the image itself, in squared diagonals
 };
 
@@ -127,7 +127,7 @@ private:
       {
         for (int axis = 0; axis < Dimension; ++axis)
         {
-          got[1 + axis] += toInteger(about.Mass[c] * about.Ways[axis][(c >> axis) & 1]);
+          got[1 + axis] += toInteger(about.Mass[c] * about.Offsets[axis][(c >> axis) & 1]);
         }
         cost += about.Mass[c] * about.Square[c];
       }
@@ -160,9 +160,9 @@ private:
       double squares[2];
       for (int i = 0; i < 2; ++i)
       {
-        const double way = static_cast<double>(low + i - from[axis]) * this->Part[axis];
-        about.Ways[axis][i] = way;
-        squares[i] = this->PartOfSquare[axis] * (way * way);
+        const double offset = static_cast<double>(low + i - from[axis]) * this->Part[axis];
+        about.Offsets[axis][i] = offset;
+        squares[i] = this->PartOfSquare[axis] * (offset * offset);
       }
       // Splitting a mass between two centres at distances h and 1 - h costs h (1 - h) squared
       // cells.

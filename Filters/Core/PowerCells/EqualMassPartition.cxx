@@ -485,7 +485,7 @@ EqualMassPartition::CellIntegrals EqualMassPartition::IntegrateCell(std::int64_t
   }
   const Point<2> offset = { moments.First[0] / moments.Mass, moments.First[1] / moments.Mass };
   return { moments.Mass, { origin[0] + offset[0], origin[1] + offset[1] },
-    moments.MovedBy({ -offset[0], -offset[1] }).Second };
+    moments.Translated({ -offset[0], -offset[1] }).Second };
 }
 
 // The integral of |x - site|^2 = integral of |x - centroid|^2 + mass |centroid - site|^2.

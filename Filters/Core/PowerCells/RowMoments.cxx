@@ -149,10 +149,10 @@ Point<2> RowMoments::NearestMass(const Point<2>& point) const
 // The way of a side through the cells along one axis, as in Amanatides and Woo's traversal of a
 // grid. Whether the next face is one of x or one of y is unpredictable, so that no branch depends
 // on it.
-struct RowMoments::Way
+struct RowMoments::Traversal
 {
   // From `start` to `end`, in cells; there are `count` of them.
-  Way(double start, double end, std::int64_t count)
+  Traversal(double start, double end, std::int64_t count)
   {
     // An end on a face belongs to the cell that the side passes through there; a side along a face
     // may belong to the cells on either side of it.
@@ -199,8 +199,8 @@ void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visi
   // The side in cells of the grid.
   const Point<2> start = { from[0] / this->Scale[0], from[1] / this->Scale[1] };
   const Point<2> end = { to[0] / this->Scale[0], to[1] / this->Scale[1] };
-  Way x(start[0], end[0], this->Size[0]);
-  Way y(start[1], end[1], this->Size[1]);
+  Traversal x(start[0], end[0], this->Size[0]);
+  Traversal y(start[1], end[1], this->Size[1]);
   double done = 0.0;
   Point<2> at = start;
   for (std::int64_t faces = x.Faces + y.Faces; faces > 0; --faces)

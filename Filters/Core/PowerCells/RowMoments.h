@@ -22,7 +22,7 @@ class Progress;
 struct PolygonMoments
 {
   // The moments of the polygon after a translation.
-  PolygonMoments MovedBy(const Point<2>& offset) const
+  PolygonMoments Translated(const Point<2>& offset) const
   {
     const Point<2>& x = this->First;
     return { this->Mass, { x[0] + offset[0] * this->Mass, x[1] + offset[1] * this->Mass },
@@ -108,7 +108,7 @@ private:
     double Second;
   };
 
-  struct Way;
+  struct Traversal;
   class RowIntegral;
 
   static constexpr std::int64_t cellsOfBlock = 16;

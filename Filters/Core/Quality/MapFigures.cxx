@@ -55,7 +55,7 @@ template <int D>
 void writeSamples(const MapOnLattice<D>& map, const Point<D>& step, const MapDisplacement<D>& moves,
   const MapValues& values, DisplacementSums& sums, Progress& progress)
 {
-  const MapDerivatives<D> derivatives(map.Lattice, map.Wanted, map.Kept, step, map.Positions);
+  const MapDerivatives<D> derivatives(map.Lattice, map.Wanted, map.Stored, step, map.Positions);
   const std::int64_t count = map.Wanted.Count();
   // On several ranks in 3D, displacements overwrite positions layer by layer, so that
   // derivatives of a layer are taken first.
@@ -101,7 +101,7 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
       { "samples", hasOwn ? 70.0 : 35.0 }, { "figures", target ? 8.0 : 0.0 } });
   // Figures of all samples on all ranks.
   MapFigures figures;
-  const MapSamples<D> samples{ map.Lattice, map.Own, map.Kept, map.Positions };
+  const MapSamples<D> samples{ map.Lattice, map.Own, map.Stored, map.Positions };
   figures.Blocks = target
     ? measureBlocksBetween<D>(samples, { density, flow.Total() }, target->Density, stages["blocks"])
     : measureBlocks<D>(samples, density, flow.Total(), direction, stages["blocks"]);
@@ -110,7 +110,7 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
     takeFrom<D>(target->Grid, map, stages["target"]);
   }
   const auto movesOf = [&](const LatticePart<D>& part) {
-    return MapDisplacement<D>(map.Geometry, map.Lattice, part, map.Kept, map.Positions, begins);
+    return MapDisplacement<D>(map.Geometry, map.Lattice, part, map.Stored, map.Positions, begins);
   };
   const MapDisplacement<D> moves = movesOf(map.Wanted);
   const MapFolds<D> folds(map.Lattice, begins);
@@ -121,7 +121,7 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
   {
     Progress& counting = stages["own part"];
     movesOf(map.Own).Count(sums, counting);
-    figures.Folds = folds.Count(map.Own, map.Kept, step, map.Positions, counting);
+    figures.Folds = folds.Count(map.Own, map.Stored, step, map.Positions, counting);
   }
   writeSamples<D>(map, step, moves, values, sums, stages["samples"]);
   if (hasOwn)

@@ -37,7 +37,7 @@ struct MapOnLattice
   GridSize<D> Lattice;
   LatticePart<D> Own;    // the samples that this rank counts
   LatticePart<D> Wanted; // those that it writes
-  LatticePart<D> Kept;   // those whose positions are there, axis 0 fastest
+  LatticePart<D> Stored; // those whose positions are there, axis 0 fastest
   PointSpan<D> Positions;
 };
 

@@ -78,7 +78,7 @@ bool RelaxationDescent<Dimension>::Step(Progress& progress)
   bool isDone = this->Search(true, progress);
   if (!isDone)
   {
-    this->Hessian.Forget();
+    this->Hessian.Reset();
     isDone = (!isFresh && this->Search(true, progress)) ||
       (!this->Aimed.empty() && this->Search(false, progress));
   }

@@ -75,7 +75,7 @@ private:
   // Clips by the half-plane (Sutherland and Hodgman).
   void KeepInside()
   {
-    this->Kept.clear();
+    this->Clipped.clear();
     for (std::size_t k = 0; k < this->Corners.size(); ++k)
     {
       const Point<2>& a = this->Corners[k];
@@ -84,15 +84,15 @@ private:
       const double to = this->Excess[this->After(k)];
       if (from <= 0.0)
       {
-        this->Kept.push_back(a);
+        this->Clipped.push_back(a);
       }
       if ((from > 0.0) != (to > 0.0))
       {
         const double part = from / (from - to);
-        this->Kept.push_back({ a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]) });
+        this->Clipped.push_back({ a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]) });
       }
     }
-    this->Corners.swap(this->Kept);
+    this->Corners.swap(this->Clipped);
     this->FindRadius();
   }
 
@@ -106,7 +106,7 @@ private:
   }
 
   std::vector<Point<2>> Corners; // counter-clockwise
-  std::vector<Point<2>> Kept;
+  std::vector<Point<2>> Clipped;
   std::vector<double> Excess; // excess of each corner beyond the bisector
   double SquaredRadius = 0.0;
 };

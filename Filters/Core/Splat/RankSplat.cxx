@@ -77,7 +77,7 @@ Sent<Real> distribute(const SplatSetup<Dimension, Real>& setup, const std::int64
         std::copy_n(particles.Points[particle], 3, record.Place);
         for (std::size_t rank = 0; rank < wanted.size(); ++rank)
         {
-          if (reaches<Dimension>(wanted[rank], cells.data() + 3 * i, setup.Job.Kept))
+          if (reaches<Dimension>(wanted[rank], cells.data() + 3 * i, setup.Job.Span))
           {
             sent.ToRanks[rank].push_back(record);
           }

@@ -60,7 +60,7 @@ public:
       // Offsets in memory are those of the grid's cells less this start.
       this->Job.Memory.Start += stride * part.Low[a];
       stride *= part.Cells[a];
-      reached *= this->Job.Kept[a];
+      reached *= this->Job.Span[a];
     }
     // Slices of wide kernels have fewer particles, as each has `reached` shares.
     const double shortest = std::clamp(shortestSlice / reached, 64.0, shortestSlice / 8.0);

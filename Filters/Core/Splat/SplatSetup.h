@@ -35,7 +35,7 @@ public:
     for (int a = 0; a < Dimension; ++a)
     {
       this->Job.Size[a] = static_cast<std::int32_t>(size[a]);
-      this->Job.Kept[a] = std::min(this->Job.Width, this->Job.Size[a]);
+      this->Job.Span[a] = std::min(this->Job.Width, this->Job.Size[a]);
     }
   }
 

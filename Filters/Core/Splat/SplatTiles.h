@@ -162,7 +162,7 @@ private:
     {
       const CellBox<Dimension>& box = this->Job.Box;
       const std::int32_t first = std::max(cells[a], box.Low[a]);
-      const std::int32_t last = std::min(cells[a] + this->Job.Kept[a], box.High[a]) - 1;
+      const std::int32_t last = std::min(cells[a] + this->Job.Span[a], box.High[a]) - 1;
       if (last < first)
       {
         return;

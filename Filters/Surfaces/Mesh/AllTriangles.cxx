@@ -78,16 +78,16 @@ void AllTriangles::ScalePoints(Progress& progress)
 void AllTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
 {
   // The list of given numbers exists only if triangles are left out.
-  if (this->Kept.size() == 0)
+  if (this->GivenIds.size() == 0)
   {
-    this->Kept = LargeBuffer<std::int64_t>(this->Count);
-    std::iota(this->Kept.data(), this->Kept.data() + this->Count, std::int64_t{ 0 });
+    this->GivenIds = LargeBuffer<std::int64_t>(this->Count);
+    std::iota(this->GivenIds.data(), this->GivenIds.data() + this->Count, std::int64_t{ 0 });
   }
   std::int64_t next = 0;
   progress.ForEachInOrder(this->Count, grain, [&](std::int64_t triangle) {
     if (!isLeftOut(triangle))
     {
-      this->Kept.data()[next] = this->Kept.data()[triangle];
+      this->GivenIds.data()[next] = this->GivenIds.data()[triangle];
       std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * next++);
     }
   });

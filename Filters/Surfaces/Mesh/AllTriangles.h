@@ -27,7 +27,7 @@ public:
   std::int64_t NumberOfTriangles() const override { return this->Count; }
   std::int64_t GivenTriangle(std::int64_t triangle) const override
   {
-    return this->Kept.size() > 0 ? this->Kept.data()[triangle] : triangle;
+    return this->GivenIds.size() > 0 ? this->GivenIds.data()[triangle] : triangle;
   }
   std::array<std::int64_t, 3> CornersOf(std::int64_t triangle) const override
   {
@@ -51,11 +51,11 @@ private:
   void LeaveOutRepeated(Progress& progress);
   void FindAreas(Progress& progress);
 
-  LargeBuffer<double> Coordinates;   // three a point, in units of Unit from the centre
-  LargeBuffer<std::int64_t> Corners; // three points each
-  std::int64_t Count;                // number of triangles that are left
-  LargeBuffer<std::int64_t> Kept;    // given triangles; empty if these are all
-  LargeBuffer<double> Shares;        // parts of the area, by triangles
+  LargeBuffer<double> Coordinates;    // three a point, in units of Unit from the centre
+  LargeBuffer<std::int64_t> Corners;  // three points each
+  std::int64_t Count;                 // number of triangles that are left
+  LargeBuffer<std::int64_t> GivenIds; // given triangles; empty if these are all
+  LargeBuffer<double> Shares;         // parts of the area, by triangles
   std::int64_t NumberOfRepeated = 0;
   double RoundingOfPoints = 0.0;
   double Area = 0.0; // in units of Unit^2

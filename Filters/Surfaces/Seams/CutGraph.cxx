@@ -81,7 +81,7 @@ public:
       this->Mesh.SetSeam(side, true);
       for (std::int64_t point : { this->Mesh.From(side), this->Mesh.To(side) })
       {
-        this->SetWayBack(point, isStart);
+        this->SetPathBack(point, isStart);
       }
     }
     if (root >= 0)
@@ -174,7 +174,7 @@ private:
   }
 
   // Sets the path from a point back to its start as seams, up to a path that is set already.
-  void SetWayBack(std::int64_t point, const std::vector<unsigned char>& isStart)
+  void SetPathBack(std::int64_t point, const std::vector<unsigned char>& isStart)
   {
     while (!isStart[static_cast<std::size_t>(point)])
     {

@@ -29,7 +29,7 @@ double totalCost(const EqualMassPartition& partition)
 PolygonMoments momentsOf(const EqualMassPartition& partition, std::size_t site)
 {
   const auto cell = partition.Integrals(static_cast<std::int64_t>(site));
-  return PolygonMoments{ cell.Mass, {}, cell.Spread }.MovedBy(cell.Centroid);
+  return PolygonMoments{ cell.Mass, {}, cell.Spread }.Translated(cell.Centroid);
 }
 
 // The masses by cutting the cells, not by the sums that the solver looks at.

@@ -98,7 +98,7 @@ std::vector<double> addInOrder(const Cloud<D>& cloud, const GridSize<D>& size, S
   {
     job.Size[a] = static_cast<std::int32_t>(size[a]);
     job.Memory.Stride[a] = stride;
-    job.Kept[a] = std::min(job.Width, job.Size[a]);
+    job.Span[a] = std::min(job.Width, job.Size[a]);
     stride *= size[a];
   }
   std::vector<double> scratch(21);

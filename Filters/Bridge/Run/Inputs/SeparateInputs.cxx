@@ -126,7 +126,7 @@ struct ExecutiveKeys : Pipeline
 };
 
 // Whether a filter has made an output of data of another time than was requested.
-bool hasWrongTime(vtkAlgorithm* filter, int port)
+bool isMistimed(vtkAlgorithm* filter, int port)
 {
   vtkInformation* output = filter->GetOutputInformation(port);
   const auto announced = announcedTimes(output);
@@ -262,11 +262,11 @@ void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVe
   // times before, what it left is invalidated and each input is made again, once.
   this->InvalidateCachedSteps(branches);
   this->UpdateEach(branches);
-  if (this->ForgetWrongTimes(branches))
+  if (this->DropMistimed(branches))
   {
     this->UpdateEach(branches);
     this->UntimedOutputs.clear();
-    for (const Output& output : WrongOutputs(branches))
+    for (const Output& output : Mistimed(branches))
     {
       this->UntimedOutputs[output] = StateOf(output);
     }
@@ -343,9 +343,9 @@ void SeparateInputs::UpdateEach(const std::vector<Branch>& branches)
 // it got data of another time than they asked for: the executive does not make them again for that
 // time, and some filters keep them. Returns whether there are such, which the next update then
 // makes anew. Filters that do not tell which time their data have are not tried again.
-bool SeparateInputs::ForgetWrongTimes(const std::vector<Branch>& branches)
+bool SeparateInputs::DropMistimed(const std::vector<Branch>& branches)
 {
-  const std::set<Output> wrong = WrongOutputs(branches);
+  const std::set<Output> wrong = Mistimed(branches);
   const auto isKnown = [this](const Output& output) {
     const auto found = this->UntimedOutputs.find(output);
     return found != this->UntimedOutputs.end() && found->second == StateOf(output);
@@ -369,7 +369,7 @@ bool SeparateInputs::ForgetWrongTimes(const std::vector<Branch>& branches)
 }
 
 // The outputs before these inputs whose data are not of the time that was requested.
-std::set<SeparateInputs::Output> SeparateInputs::WrongOutputs(const std::vector<Branch>& branches)
+std::set<SeparateInputs::Output> SeparateInputs::Mistimed(const std::vector<Branch>& branches)
 {
   std::set<Output> wrong;
   for (const Branch& branch : branches)
@@ -378,7 +378,7 @@ std::set<SeparateInputs::Output> SeparateInputs::WrongOutputs(const std::vector<
     {
       for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
       {
-        if (hasWrongTime(filter, port))
+        if (isMistimed(filter, port))
         {
           wrong.insert({ filter, port });
         }
@@ -400,7 +400,7 @@ vtkInformationVector** SeparateInputs::Inputs(
   // object, the copy has the contents of the right time. Another data object is none that Update
   // has made.
   std::map<std::pair<int, int>, vtkDataObject*> replaced;
-  for (const Made& made : this->Data)
+  for (const UpdatedInput& made : this->Data)
   {
     if (made.Data->GetUpdateTime() == made.Time)
     {

@@ -55,7 +55,7 @@ public:
 private:
   using Output = std::pair<vtkAlgorithm*, int>; // a filter and its output port
   struct Branch;
-  struct Made
+  struct UpdatedInput
   {
     int Port;
     int Index;
@@ -67,13 +67,13 @@ private:
   using State = std::pair<vtkMTimeType, std::optional<double>>;
 
   static std::vector<Branch> FindBranches(vtkAlgorithm* filter, vtkInformationVector** inputVector);
-  static std::set<Output> WrongOutputs(const std::vector<Branch>& branches);
+  static std::set<Output> Mistimed(const std::vector<Branch>& branches);
   static State StateOf(const Output& output);
   void UpdateEach(const std::vector<Branch>& branches);
   void InvalidateCachedSteps(const std::vector<Branch>& branches);
-  bool ForgetWrongTimes(const std::vector<Branch>& branches);
+  bool DropMistimed(const std::vector<Branch>& branches);
 
-  std::vector<Made> Data;
+  std::vector<UpdatedInput> Data;
   std::string Failed;                     // the error message; empty if all inputs were made
   std::map<Output, State> UntimedOutputs; // whose data have another time even if made separately
 

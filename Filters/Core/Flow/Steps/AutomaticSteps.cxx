@@ -32,12 +32,12 @@ constexpr int lastCompared = 1024; // steps, with twice as many
 constexpr std::size_t oneIn = 1000;
 
 // A choice is verified by the worse half of the blocks, each time with more points on their sides.
-// Among those with the largest changes, `Kept` for each that may be worse stay.
+// Among those with the largest changes, `Retained` for each that may be worse stay.
 struct Verification
 {
   int Parts;  // of a side
   int Factor; // so many times the steps
-  std::size_t Kept;
+  std::size_t Retained;
 };
 constexpr Verification verifications[] = { { 1, 2, 32 }, { 2, 2, 8 }, { 4, 4, 0 } };
 
@@ -74,9 +74,9 @@ double errorBetween(const Measured& few, const Measured& many, int steps)
   constexpr double least = 1e-9;
   const double logOfFew = naturalLogarithm(std::max(few.Error, least));
   const double logOfMany = naturalLogarithm(std::max(many.Error, least));
-  const double way = naturalLogarithm(static_cast<double>(steps) / few.Steps) /
+  const double fraction = naturalLogarithm(static_cast<double>(steps) / few.Steps) /
     naturalLogarithm(static_cast<double>(many.Steps) / few.Steps);
-  return exponential(logOfFew + way * (logOfMany - logOfFew));
+  return exponential(logOfFew + fraction * (logOfMany - logOfFew));
 }
 
 // Steps as exact as which flow maps need to be. They carry the smooth part of the flow: with as
@@ -174,7 +174,7 @@ public:
         StepChoice choice = this->ChoiceFrom(before, now, most);
         if (this->IsVerified() && before.Steps > 0 && options.LeastSteps <= choice.NumberOfSteps)
         {
-          this->Judge(choice, most, options);
+          this->Verify(choice, most, options);
         }
         this->Complete(choice, options);
         return choice;
@@ -341,7 +341,7 @@ private:
         // A verification moves its points with the chosen steps and with `Factor` times as many.
         choosing.Verified += static_cast<double>((verification.Factor + 1) * points);
         const BlockSurface<Dimension> next(2 * verification.Parts);
-        points = verification.Kept * (this->Worst() + 1) * next.Count();
+        points = verification.Retained * (this->Worst() + 1) * next.Count();
       }
     }
     const int most = this->BudgetOf(options).MostSteps(choosing, isSmooth);
@@ -392,7 +392,7 @@ private:
   // With the steps that are chosen, as one particle a cell takes them: errors go up and down from
   // one number of steps to the next, and fall slowly where a density jumps. Then twice as many do
   // not show them, but 4 times as many do. Between the corners of cells the sides of a block bend.
-  void Judge(StepChoice& choice, int most, const FlowOptions& options)
+  void Verify(StepChoice& choice, int most, const FlowOptions& options)
   {
     this->TakeMapSteps(choice, options);
     FlowOptions taken = this->Options;
@@ -412,7 +412,7 @@ private:
         std::min(verification.Factor * choice.NumberOfSteps, FlowOptions::MaximumNumberOfSteps);
       const std::vector<double> errors = this->ErrorsOf(images, this->Move(more));
       choice.AreaError = this->OfNearlyAll(errors);
-      this->SelectWorst(errors, verification.Kept * (this->Worst() + 1));
+      this->SelectWorst(errors, verification.Retained * (this->Worst() + 1));
     }
     this->TakeMore(choice, most);
   }

@@ -56,20 +56,20 @@ public:
   // particles.
   int MostSteps(const ChoiceCost& choosing, bool isSmooth) const
   {
-    int kept = FlowOptions::FewestSteps;
-    int missed = 8 * FlowOptions::FewestSteps * 2;
-    while (missed - kept > stepUnit)
+    int affordable = FlowOptions::FewestSteps;
+    int excessive = 8 * FlowOptions::FewestSteps * 2;
+    while (excessive - affordable > stepUnit)
     {
-      const int middle = (kept + missed) / (2 * stepUnit) * stepUnit;
+      const int middle = (affordable + excessive) / (2 * stepUnit) * stepUnit;
       // Until `middle` is between two numbers of steps that are compared.
       double choice = choosing.Spent + middle * choosing.Verified;
       for (int last = 4 * FlowOptions::FewestSteps; last < 4 * middle; last *= 2)
       {
         choice += last * choosing.Compared;
       }
-      (this->IsKept(middle, choice, isSmooth) ? kept : missed) = middle;
+      (this->IsAffordable(middle, choice, isSmooth) ? affordable : excessive) = middle;
     }
-    return kept;
+    return affordable;
   }
 
   // How many times as long as a run with a choice one with a given NumberOfSteps would take.
@@ -113,7 +113,7 @@ private:
     return particles * velocitiesOf(this->Direction, steps);
   }
 
-  bool IsKept(int steps, double choice, bool isSmooth) const
+  bool IsAffordable(int steps, double choice, bool isSmooth) const
   {
     for (std::size_t i = 0; i < this->Particles.size(); ++i)
     {

@@ -26,11 +26,11 @@ public:
 
   // Writes the positions of the resolved particles, or of all if these are kept; the others are
   // added to those that are left. The job is on the tile's tables.
-  TileLanes(const FlowJob<Dimension>& job, int pass, bool isKept, PointSpan<Dimension> positions,
-    ParticleMask& left, std::atomic<std::int64_t>& evaluations)
+  TileLanes(const FlowJob<Dimension>& job, int pass, bool keepsUnresolved,
+    PointSpan<Dimension> positions, ParticleMask& left, std::atomic<std::int64_t>& evaluations)
     : Job(job)
     , Pass(pass)
-    , IsKept(isKept)
+    , KeepsUnresolved(keepsUnresolved)
     , Positions(positions)
     , Left(left)
     , Evaluations(evaluations)
@@ -70,7 +70,7 @@ public:
       this->Advect(this->Job, this->Seeds, this->Numbers, this->Count, this->Pass, unresolved);
     for (int i = 0; i < this->Count; ++i)
     {
-      if (!unresolved[i] || this->IsKept)
+      if (!unresolved[i] || this->KeepsUnresolved)
       {
         std::copy_n(this->Ends + i * Dimension, Dimension, this->Positions[this->Index[i]]);
       }
@@ -85,7 +85,7 @@ public:
 private:
   FlowJob<Dimension> Job;
   const int Pass;
-  const bool IsKept;
+  const bool KeepsUnresolved;
   const PointSpan<Dimension> Positions;
   ParticleMask& Left;
   std::atomic<std::int64_t>& Evaluations;

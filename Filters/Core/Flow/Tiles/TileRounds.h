@@ -143,7 +143,7 @@ private:
         std::vector<Bytes> parts = ranks.Exchange(visitors.Leave(task));
         for (Bytes& part : parts)
         {
-          part = task.Serve(std::move(part), work);
+          part = task.Process(std::move(part), work);
         }
         visitors.Return(ranks.Exchange(std::move(parts)), task);
       }

@@ -23,7 +23,7 @@ struct TileStage
 {
   FlowJob<Dimension> Job; // its tables are set for each tile
   int Pass;               // of the kernel
-  bool IsKept;            // where particles are that stay unresolved
+  bool KeepsUnresolved;   // where particles are that stay unresolved
   const PointSpan<Dimension> Positions;
   ParticleMask& Left; // those that are unresolved
   Counters& Count;
@@ -69,7 +69,7 @@ public:
 
   // Returns where each of the particles that a rank sent ends, and a byte that says whether it is
   // unresolved.
-  Bytes Serve(Bytes visitors, Progress& progress)
+  Bytes Process(Bytes visitors, Progress& progress)
   {
     // [particle][each] as they were sent.
     const int each = this->ValuesEach();
@@ -102,7 +102,7 @@ public:
   {
     constexpr std::size_t bytes = sizeof(double) * Dimension;
     const bool isUnresolved = reply[bytes] != 0;
-    if (!isUnresolved || this->Stage.IsKept)
+    if (!isUnresolved || this->Stage.KeepsUnresolved)
     {
       std::memcpy(this->Stage.Positions[index], reply, bytes);
     }
@@ -127,8 +127,8 @@ private:
     progress.For(
       count, itemsOfRange,
       [&](std::int64_t first, std::int64_t last) {
-        TileLanes<Dimension> lanes(
-          job, stage.Pass, stage.IsKept, stage.Positions, stage.Left, stage.Count.Evaluations);
+        TileLanes<Dimension> lanes(job, stage.Pass, stage.KeepsUnresolved, stage.Positions,
+          stage.Left, stage.Count.Evaluations);
         for (std::int64_t i = first; i < last && !progress.ShouldStop(); ++i)
         {
           add(i, lanes);

@@ -116,7 +116,7 @@ private:
     }
     // Boxes of other ranks with a centre in this tile, as Dimension + 1 doubles each; returns a
     // measure for each.
-    Bytes Serve(Bytes visitors, Progress& progress)
+    Bytes Process(Bytes visitors, Progress& progress)
     {
       const std::vector<double> values = fromBytes<double>(visitors);
       std::vector<double> found(values.size() / Values);

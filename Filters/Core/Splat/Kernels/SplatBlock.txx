@@ -272,12 +272,12 @@ RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimens
   }
 }
 
-// The first of the Kept cells inside the grid for a particle that reaches cells from `first` on
+// The first of the Span cells inside the grid for a particle that reaches cells from `first` on
 // along axis `a`.
 template <int Dimension, class Real>
-RT_INLINE std::int32_t keptFirst(const SplatJob<Dimension, Real>& job, int a, std::int32_t first)
+RT_INLINE std::int32_t firstCell(const SplatJob<Dimension, Real>& job, int a, std::int32_t first)
 {
-  return smaller(larger(first, 0), job.Size[a] - job.Kept[a]);
+  return smaller(larger(first, 0), job.Size[a] - job.Span[a]);
 }
 
 // The number of particles of a block that are outside, of those whose first cell along the last
@@ -290,7 +290,7 @@ int countOutside(const SplatJob<Dimension, Real>& job, const Block& block,
   int outside = 0;
   for (int i = 0; i < block.Count; ++i)
   {
-    const std::int32_t cell = keptFirst(job, axis, first[3 * i + axis]);
+    const std::int32_t cell = firstCell(job, axis, first[3 * i + axis]);
     const bool counts = cell >= box.Low[axis] && cell < box.High[axis];
     outside += !(block.Beyond[i] == 0.0) && counts ? 1 : 0;
   }

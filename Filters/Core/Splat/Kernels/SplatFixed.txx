@@ -237,12 +237,12 @@ void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& 
     if (first < 0 || first + width > size)
     {
       // At the border of the grid, weights outside are redistributed or dropped.
-      first = keepInside(first, width, job.Kept[a], size, job.Renormalize, weight[a]);
+      first = keepInside(first, width, job.Span[a], size, job.Renormalize, weight[a]);
     }
     start += first * job.Memory.Stride[a];
     // The range of the particle's cells that is in the box.
     begin[a] = larger(box.Low[a] - first, 0);
-    end[a] = smaller(box.High[a] - first, job.Kept[a]);
+    end[a] = smaller(box.High[a] - first, job.Span[a]);
   }
   for (int k = begin[2]; k < end[2]; ++k)
   {
@@ -334,7 +334,7 @@ public:
       {
         for (int a = 0; a < Dimension; ++a)
         {
-          cells[3 * (begin + i) + a] = keptFirst(job, a, splat.Weighed.First[3 * i + a]);
+          cells[3 * (begin + i) + a] = firstCell(job, a, splat.Weighed.First[3 * i + a]);
         }
       }
     }
@@ -354,10 +354,10 @@ public:
     CellBox<Dimension> box;
     for (int a = 0; a < Dimension; ++a)
     {
-      // Negative numbers are truncated upwards, but keptFirst raises them to 0 anyway.
-      box.Low[a] = keptFirst(job, a, static_cast<std::int32_t>(least[a] - below - rounding));
+      // Negative numbers are truncated upwards, but firstCell raises them to 0 anyway.
+      box.Low[a] = firstCell(job, a, static_cast<std::int32_t>(least[a] - below - rounding));
       box.High[a] =
-        keptFirst(job, a, static_cast<std::int32_t>(most[a] - below + rounding)) + job.Kept[a];
+        firstCell(job, a, static_cast<std::int32_t>(most[a] - below + rounding)) + job.Span[a];
     }
     return box;
   }

@@ -95,11 +95,11 @@ RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double
   }
   if (place.First < 0 || place.First + width > job.Size[a])
   {
-    keepInside(place.First, width, job.Kept[a], job.Size[a], job.Renormalize, weight);
+    keepInside(place.First, width, job.Span[a], job.Size[a], job.Renormalize, weight);
   }
 }
 
-// The first of the Kept cells of each particle along each axis, [particle][3].
+// The first of the Span cells of each particle along each axis, [particle][3].
 template <int Dimension, class Real>
 RT_INLINE void findGaussian(
   const SplatJob<Dimension, Real>& job, const Block& block, std::int32_t* cells)
@@ -109,7 +109,7 @@ RT_INLINE void findGaussian(
     for (int a = 0; a < Dimension; ++a)
     {
       const GaussianPlace place(block.X[3 * i + a], job.Size[a], job.Cut);
-      cells[3 * i + a] = keptFirst(job, a, place.First);
+      cells[3 * i + a] = firstCell(job, a, place.First);
     }
   }
 }
@@ -129,7 +129,7 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& bl
     const std::int32_t cell = first[3 * i + a];
     start += cell * job.Memory.Stride[a];
     begin[a] = larger(box.Low[a] - cell, 0);
-    end[a] = smaller(box.High[a] - cell, job.Kept[a]);
+    end[a] = smaller(box.High[a] - cell, job.Span[a]);
     if (begin[a] >= end[a])
     {
       return;
@@ -225,8 +225,8 @@ struct GaussianSplat
     for (int a = 0; a < Dimension; ++a)
     {
       const std::int32_t below = ceiling(job.Cut + 0.5 + rounding);
-      box.Low[a] = keptFirst(job, a, static_cast<std::int32_t>(least[a]) - below);
-      box.High[a] = keptFirst(job, a, static_cast<std::int32_t>(most[a]) - below + 3) + job.Kept[a];
+      box.Low[a] = firstCell(job, a, static_cast<std::int32_t>(least[a]) - below);
+      box.High[a] = firstCell(job, a, static_cast<std::int32_t>(most[a]) - below + 3) + job.Span[a];
     }
     return box;
   }

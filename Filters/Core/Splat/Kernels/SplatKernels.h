@@ -38,7 +38,7 @@ struct SplatJob
   SplatParticles<Dimension, Real> Particles;
   std::int32_t Size[Dimension];
   std::int32_t Width;           // cells an axis that a particle reaches
-  std::int32_t Kept[Dimension]; // the lesser of Width and Size
+  std::int32_t Span[Dimension]; // the lesser of Width and Size
   bool Renormalize;
   double Scale;
   CellBox<Dimension> Box; // the cells that are in memory
@@ -58,7 +58,7 @@ template <int Dimension, class Real>
 using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
   const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);
 
-// Finds the first of the cells that particles [first, first + count) reach: Kept cells from there
+// Finds the first of the cells that particles [first, first + count) reach: Span cells from there
 // on, along axis a from cells[3 i + a]. Returns how many are outside.
 template <int Dimension, class Real>
 using FindCells = std::int64_t (*)(

@@ -8,10 +8,10 @@ namespace RectifiedTransport
 {
 
 PaddedValues::PaddedValues(std::shared_ptr<const DensityValues> inner, const LatticePart<3>& box,
-  const GridSize<3>& grown, double empty)
+  const GridSize<3>& padded, double empty)
   : Inner(std::move(inner))
   , Box(box)
-  , Whole(LatticePart<3>::WholeOf(grown))
+  , Whole(LatticePart<3>::WholeOf(padded))
   , Empty(empty)
 {
 }

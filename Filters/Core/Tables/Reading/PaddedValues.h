@@ -18,7 +18,7 @@ public:
   // `inner` has cells of `box`, by their numbers in it; `grown` are the cells of the larger grid.
   // `empty` is the density of those around the box.
   PaddedValues(std::shared_ptr<const DensityValues> inner, const LatticePart<3>& box,
-    const GridSize<3>& grown, double empty);
+    const GridSize<3>& padded, double empty);
 
   void Read(std::int64_t first, std::int64_t count, double* values) const override;
 

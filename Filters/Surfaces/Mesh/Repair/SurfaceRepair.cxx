@@ -165,7 +165,7 @@ private:
   // A face that a file has twice would make all its edges non-manifold.
   void LeaveOutRepeated(const Context& context)
   {
-    const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(this->Kept(), context);
+    const std::vector<RepeatedTriangle> repeated = findRepeatedTriangles(this->Left(), context);
     for (const RepeatedTriangle& one : repeated)
     {
       // In numbers of the given triangles.
@@ -194,7 +194,7 @@ private:
     this->Origins.data()[place] = this->Origins.data()[triangle];
   }
 
-  TriangleSurface Kept() const
+  TriangleSurface Left() const
   {
     return { this->Given.Points, this->Triangles.data(), this->Count };
   }
@@ -205,14 +205,14 @@ private:
     Progress progress(context);
     Stages stages(progress, { { "edges", 7 }, { "orientation", 3 } });
     // An edge is reversed if its two triangles pass it in the same direction.
-    const SurfaceEdges edges(this->Kept(), stages["edges"]);
+    const SurfaceEdges edges(this->Left(), stages["edges"]);
     // Most surfaces are oriented already.
     if (edges.Reversed() == 0)
     {
       return;
     }
     LargeBuffer<std::int64_t> oriented(3 * this->Count);
-    orientSurface(this->Kept(), edges, oriented.data(), stages["orientation"]);
+    orientSurface(this->Left(), edges, oriented.data(), stages["orientation"]);
     for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
     {
       // orientSurface swaps corners 1 and 2 of what it turns; the given corners must follow.
