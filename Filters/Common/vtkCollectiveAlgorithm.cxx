@@ -10,9 +10,9 @@
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/Inputs/InputRequests.h"
 #include "Bridge/Run/Pipeline/ConsumerExtents.h"
-#include "Bridge/Run/Pipeline/EarlyUpdate.h"
 #include "Bridge/Run/Pipeline/InputFields.h"
 #include "Bridge/Run/Pipeline/OutputInformation.h"
+#include "Bridge/Run/Pipeline/ProducerUpdate.h"
 #include "Bridge/Run/Pipeline/RequestedTimes.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SMPExecutor.h"
@@ -55,7 +55,7 @@ void makeOutputLike(vtkPointSet* input, vtkInformationVector* outputVector, int 
 //------------------------------------------------------------------------------
 vtkCollectiveAlgorithm::vtkCollectiveAlgorithm()
   : Whole(new InputRequests)
-  , Early(new EarlyUpdate)
+  , Early(new ProducerUpdate)
 {
 }
 

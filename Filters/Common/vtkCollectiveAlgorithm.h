@@ -30,7 +30,7 @@ namespace RectifiedTransport
 class Ranks;
 namespace Bridge
 {
-class EarlyUpdate;
+class ProducerUpdate;
 class RankRun;
 class InputRequests;
 } // namespace Bridge
@@ -247,7 +247,7 @@ private:
   void EndRun();
   bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
   std::unique_ptr<RectifiedTransport::Bridge::InputRequests> Whole;
-  std::unique_ptr<RectifiedTransport::Bridge::EarlyUpdate> Early;
+  std::unique_ptr<RectifiedTransport::Bridge::ProducerUpdate> Early;
   std::unique_ptr<RectifiedTransport::Bridge::RankRun>
     Run; // during RequestData and RequestInformation
   bool HasNextPass = false;

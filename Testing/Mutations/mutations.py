@@ -380,7 +380,7 @@ OTHERS = [
     S(CORE + "OptimalMap/PointMap.cxx", "this->Improve(place, image);", ";"),
     E(CORE + "OptimalMap/PairSlack.cxx", "sum += 0.5 * h * h * «part * (1.0 - part)»;", "0.0"),
     E(CORE + "OptimalMap/OptimalMap.cxx", "if («areFinished»)", "false"),
-    S(CORE + "OptimalMap/Masses/FinishSamples.cxx", "gatherParts(ranks, starts, all.data());", ";"),
+    S(CORE + "OptimalMap/Masses/SampleCorrection.cxx", "gatherParts(ranks, starts, all.data());", ";"),
     E(BRIDGE + "Plan/FlowCache.cxx", "if («needs.Setting.NeedsMap()»)", "false"),
     E(BRIDGE + "Plan/OptimalMemory.h", "this->Setting.IsOptimal ? «this->Samples» : 0.0", "0.0"),
     E(BRIDGE + "Ensembles/DensityBlend.cxx", "if («settings.Optimal.NeedsMap()») // before", "false"),

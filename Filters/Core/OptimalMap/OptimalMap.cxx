@@ -7,7 +7,7 @@
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/FixedCells.h"
 #include "Core/OptimalMap/Masses/CellDensity.h"
-#include "Core/OptimalMap/Masses/FinishSamples.h"
+#include "Core/OptimalMap/Masses/SampleCorrection.h"
 #include "Core/OptimalMap/PairSlack.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 #include "Core/Parallel/SmallWork.h"
@@ -406,7 +406,7 @@ FlowReport OptimalMap<Dimension>::Implementation::Move(int side, const FlowSeeds
     });
   if (areFinished)
   {
-    finishSamples<Dimension>(
+    correctSamples<Dimension>(
       this->Densities[1 - from], this->CellSides(1 - from), positions, steps["finish"]);
   }
   if (returns)

@@ -3,8 +3,8 @@
 #include "Core/Grid/NodeLevels.h"
 #include "Core/OptimalMap/CouplingCost.h"
 #include "Core/OptimalMap/FixedCells.h"
-#include "Core/OptimalMap/Masses/FinishSamples.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
+#include "Core/OptimalMap/Masses/SampleCorrection.h"
 #include "Core/OptimalMap/OptimalMap.h"
 #include "Core/OptimalMap/PotentialSolver.h"
 
@@ -66,7 +66,7 @@ double OptimalMap<Dimension>::MemoryForSamples(
   // The samples' starts, which are kept where some stand still.
   constexpr double starts = Dimension * sizeof(double);
   return use.Samples > 0.0
-    ? starts * use.Samples + memoryForFinishing<Dimension>(target, use.Samples, use.OnSeveralRanks)
+    ? starts * use.Samples + memoryForCorrection<Dimension>(target, use.Samples, use.OnSeveralRanks)
     : 0.0;
 }
 

@@ -60,12 +60,12 @@ struct Candidate
 // Halves boxes and moves particles between the halves. Several objects may work on different boxes,
 // as their ranges of particles do not overlap.
 template <int Dimension>
-class Halving
+class Bisection
 {
 public:
   using Part = BoxOfParticles<Dimension>;
 
-  Halving(const KdTree<Dimension>& tree, Particle<Dimension>* particles,
+  Bisection(const KdTree<Dimension>& tree, Particle<Dimension>* particles,
     PointSpan<Dimension> results, Progress& progress)
     : Tree(tree)
     , Particles(particles)
@@ -279,7 +279,7 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
   const auto sort = [&](const Part& part) {
     if (part.Count() > 0)
     {
-      (part.Count() > most && Halving<Dimension>::IsHalved(part) ? open : closed).push_back(part);
+      (part.Count() > most && Bisection<Dimension>::IsHalved(part) ? open : closed).push_back(part);
     }
   };
   sort({ tree.Whole(), 0, number });
@@ -290,12 +290,12 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
     std::vector<std::array<Part, 2>> halves(open.size());
     progress.Threads().For(
       static_cast<std::int64_t>(open.size()), 1, [&](std::int64_t first, std::int64_t last) {
-        Halving<Dimension> halving(tree, sorted.data(), particles, progress);
+        Bisection<Dimension> bisection(tree, sorted.data(), particles, progress);
         for (std::int64_t i = first; i < last; ++i)
         {
-          halves[static_cast<std::size_t>(i)] = halving.Halve(open[static_cast<std::size_t>(i)]);
+          halves[static_cast<std::size_t>(i)] = bisection.Halve(open[static_cast<std::size_t>(i)]);
         }
-        moves += halving.Moves();
+        moves += bisection.Moves();
       });
     progress.Check();
     open.clear();
@@ -311,14 +311,14 @@ std::int64_t makeCountsExact(const CellDensity<Dimension>& density, const Point<
   std::sort(
     closed.begin(), closed.end(), [](const Part& a, const Part& b) { return a.First < b.First; });
   progress.For(number, most, [&](std::int64_t first, std::int64_t last) {
-    Halving<Dimension> halving(tree, sorted.data(), particles, progress);
+    Bisection<Dimension> bisection(tree, sorted.data(), particles, progress);
     auto part = std::lower_bound(closed.begin(), closed.end(), first,
       [](const Part& a, std::int64_t begin) { return a.First < begin; });
     for (; part != closed.end() && part->First < last; ++part)
     {
-      halving.Finish(*part);
+      bisection.Finish(*part);
     }
-    moves += halving.Moves();
+    moves += bisection.Moves();
   });
   return moves;
 }

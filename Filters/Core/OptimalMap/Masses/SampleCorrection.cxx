@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/OptimalMap/Masses/FinishSamples.h"
+#include "Core/OptimalMap/Masses/SampleCorrection.h"
 
 #include "Core/OptimalMap/Masses/ExactCounts.h"
 #include "Core/OptimalMap/Masses/MassCorrection.h"
@@ -30,7 +30,7 @@ bool areEnough(double samples, double cells)
 // First long moves by Poisson's equation, then short ones that make counts exact box by box, then
 // moves within cells that make places uniform.
 template <int Dimension>
-void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
+void correctAll(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> samples, Progress& progress)
 {
   Stages stages(progress, { { "masses", 10 }, { "counts", 7 }, { "spread", 3 } });
@@ -49,13 +49,13 @@ void finishAll(const CellDensity<Dimension>& density, const Point<Dimension>& si
 // Exact counts need all samples, so each rank gathers them, computes the same, and keeps its own
 // part.
 template <int Dimension>
-void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
+void correctSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> samples, Progress& progress)
 {
   const Ranks& ranks = progress.Group();
   if (!ranks.AreSeveral())
   {
-    finishAll<Dimension>(density, sides, samples, progress);
+    correctAll<Dimension>(density, sides, samples, progress);
     return;
   }
   // The place of each rank's coordinates in the gathered array.
@@ -68,12 +68,12 @@ void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>
   const std::int64_t own = starts[static_cast<std::size_t>(ranks.Own())];
   std::copy_n(samples.data(), samples.size() * Dimension, all.data() + own);
   gatherParts(ranks, starts, all.data());
-  finishAll<Dimension>(density, sides, { all.data(), starts.back() / Dimension }, progress);
+  correctAll<Dimension>(density, sides, { all.data(), starts.back() / Dimension }, progress);
   std::copy_n(all.data() + own, samples.size() * Dimension, samples.data());
 }
 
 template <int Dimension>
-double memoryForFinishing(const GridSize<Dimension>& size, double samples, bool onSeveralRanks)
+double memoryForCorrection(const GridSize<Dimension>& size, double samples, bool onSeveralRanks)
 {
   const auto count = static_cast<std::int64_t>(samples);
   const double ofMasses = areEnough(samples, numberOfCells<Dimension>(size))
@@ -84,11 +84,11 @@ double memoryForFinishing(const GridSize<Dimension>& size, double samples, bool 
   return ofSteps + (onSeveralRanks ? samples * Dimension * sizeof(double) : 0.0);
 }
 
-template void finishSamples<1>(const CellDensity<1>&, const Point<1>&, PointSpan<1>, Progress&);
-template void finishSamples<2>(const CellDensity<2>&, const Point<2>&, PointSpan<2>, Progress&);
-template void finishSamples<3>(const CellDensity<3>&, const Point<3>&, PointSpan<3>, Progress&);
-template double memoryForFinishing<1>(const GridSize<1>&, double, bool);
-template double memoryForFinishing<2>(const GridSize<2>&, double, bool);
-template double memoryForFinishing<3>(const GridSize<3>&, double, bool);
+template void correctSamples<1>(const CellDensity<1>&, const Point<1>&, PointSpan<1>, Progress&);
+template void correctSamples<2>(const CellDensity<2>&, const Point<2>&, PointSpan<2>, Progress&);
+template void correctSamples<3>(const CellDensity<3>&, const Point<3>&, PointSpan<3>, Progress&);
+template double memoryForCorrection<1>(const GridSize<1>&, double, bool);
+template double memoryForCorrection<2>(const GridSize<2>&, double, bool);
+template double memoryForCorrection<3>(const GridSize<3>&, double, bool);
 
 } // namespace RectifiedTransport

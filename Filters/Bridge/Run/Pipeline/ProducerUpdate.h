@@ -5,8 +5,8 @@
 // on points or cells, VTK 9.1 to 9.6 have no other request in which to announce it. Filters
 // downstream that know no extent, or a wrong one, get no data or read past the end of the image
 // (TestAnnounced.py, TestUpstreamRequest.cxx).
-#ifndef RectifiedTransport_EarlyUpdate_h
-#define RectifiedTransport_EarlyUpdate_h
+#ifndef RectifiedTransport_ProducerUpdate_h
+#define RectifiedTransport_ProducerUpdate_h
 
 #include "Bridge/VTKCompatibility.h"
 
@@ -29,7 +29,7 @@ namespace RectifiedTransport::Bridge
 {
 
 // For one filter. Remembers what it updated, so that a producer runs once for each change.
-class EarlyUpdate
+class ProducerUpdate
 {
 public:
   // Updates the producer of an input: this rank's piece or, for one rank, what was requested last.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The last moves of samples that a map has taken to a density: boxes of cells get their shares of
 // them.
-#ifndef RectifiedTransport_FinishSamples_h
-#define RectifiedTransport_FinishSamples_h
+#ifndef RectifiedTransport_SampleCorrection_h
+#define RectifiedTransport_SampleCorrection_h
 
 #include "Core/OptimalMap/Masses/CellDensity.h"
 
@@ -16,12 +16,12 @@ class Progress;
 // samples of all ranks are moved together. The same bits for every number of threads and ranks.
 // Takes the progress to its end. Collective. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
-void finishSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
+void correctSamples(const CellDensity<Dimension>& density, const Point<Dimension>& sides,
   PointSpan<Dimension> samples, Progress& progress);
 
 // Bytes that it takes at most, about, for so many samples of all ranks.
 template <int Dimension>
-double memoryForFinishing(const GridSize<Dimension>& size, double samples, bool onSeveralRanks);
+double memoryForCorrection(const GridSize<Dimension>& size, double samples, bool onSeveralRanks);
 
 } // namespace RectifiedTransport
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Run/Pipeline/EarlyUpdate.h"
+#include "Bridge/Run/Pipeline/ProducerUpdate.h"
 
 #include "Bridge/Run/Pipeline/RequestedTimes.h"
 #include "Core/Parallel/Ranks.h"
@@ -42,7 +42,7 @@ void updatePiece(vtkAlgorithm* producer, int port, const Ranks& ranks)
 
 } // namespace
 
-void EarlyUpdate::Run(vtkAlgorithm* filter, int port, int connection, vtkInformation* input,
+void ProducerUpdate::Run(vtkAlgorithm* filter, int port, int connection, vtkInformation* input,
   vtkInformation* output, const Ranks& ranks)
 {
   if (input && (input->Has(Pipeline::TIME_STEPS()) || input->Has(Pipeline::TIME_RANGE())))
