@@ -30,8 +30,8 @@ public:
   // To be locked by whoever uses it. What it keeps may be looked for and go without it.
   std::timed_mutex& Mutex() { return this->InUse; }
 
-  // The flow that it keeps for an owner, who is known by his address: a new one at first. The owner
-  // must let it forget the flow before he goes. Flows must not outlive the device.
+  // The flow that it keeps for an owner, which its address identifies: a new one at first. Owners
+  // call Forget in their destructors. Flows must not outlive the device.
   virtual void Find(const void* owner, std::shared_ptr<DeviceFlow<2>>& flow) = 0;
   virtual void Find(const void* owner, std::shared_ptr<DeviceFlow<3>>& flow) = 0;
   virtual void Forget(const void* owner) = 0;
