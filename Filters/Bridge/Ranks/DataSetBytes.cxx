@@ -13,9 +13,11 @@
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <array>
@@ -121,6 +123,26 @@ void restoreTypes(vtkDataSet* data, const std::vector<int>& types)
   }
 }
 
+// VTK's writer narrows ids to 32 bits. They travel as integers of 64, and get their own type back
+// as others do. The memory is shared with the given arrays.
+void widenIds(vtkDataSetAttributes* attributes)
+{
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    auto* ids = vtkIdTypeArray::SafeDownCast(attributes->GetAbstractArray(i));
+    if (ids && ids->GetName() && sizeof(vtkIdType) == sizeof(vtkTypeInt64))
+    {
+      vtkNew<vtkTypeInt64Array> wide;
+      wide->SetName(ids->GetName());
+      wide->SetNumberOfComponents(ids->GetNumberOfComponents());
+      wide->CopyComponentNames(ids);
+      wide->SetArray(
+        reinterpret_cast<vtkTypeInt64*>(ids->GetPointer(0)), ids->GetNumberOfValues(), 1);
+      attributes->AddArray(wide); // in the place of the one of its name
+    }
+  }
+}
+
 } // namespace
 
 Bytes bytesOfDataSet(vtkDataSet* data)
@@ -146,6 +168,7 @@ Bytes bytesOfDataSet(vtkDataSet* data)
     {
       attributes->SetActiveAttribute(-1, type);
     }
+    widenIds(attributes);
   }
   vtkNew<vtkCharArray> message;
   if (!vtkCommunicator::MarshalDataObject(plain, message))

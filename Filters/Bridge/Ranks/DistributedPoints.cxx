@@ -25,6 +25,7 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -221,8 +222,12 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
     own = grid;
   }
   copyPoints(whole, kept, own);
-  // None of these points is a duplicate any more.
-  own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  // None of these points is a duplicate any more, but some may be hidden.
+  const unsigned char* flags = ghostFlags(own, vtkDataObject::POINT, "input point set");
+  if (flags && std::count(flags, flags + count, 0) == count)
+  {
+    own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  }
   tooShort.AddEmptyTo(own);
   own->GetCellData()->Initialize(); // its cells are others
   return own;

@@ -6,6 +6,7 @@
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/TruncatedArrays.h"
+#include "Bridge/Run/Memory.h"
 #include "Bridge/Run/SampledFingerprint.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
@@ -25,6 +26,7 @@
 #include "vtkStaticPointLocator.h"
 #include "vtkStructuredGrid.h"
 #include "vtkStructuredGridAppend.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -324,6 +326,36 @@ vtkSmartPointer<vtkPointSet> countedPart(vtkPointSet* own, PointSetKind kind, co
   return part && part->GetNumberOfPoints() > 0 ? part : nullptr;
 }
 
+// Append filters keep the arrays that all parts have. Where a part has ghost flags, others without
+// get flags of 0, so that what is hidden stays hidden.
+void addGhostFlags(std::vector<DataPart>& parts)
+{
+  const char* name = vtkDataSetAttributes::GhostArrayName();
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    const auto lacksFlags = [&](const DataPart& part) {
+      return !part.Data->GetAttributes(owner)->HasArray(name);
+    };
+    if (std::all_of(parts.begin(), parts.end(), lacksFlags))
+    {
+      continue;
+    }
+    for (DataPart& part : parts)
+    {
+      if (lacksFlags(part))
+      {
+        // The rank's own data are the filter's input, which stays as it is.
+        const auto copy = vtkSmartPointer<vtkDataSet>::Take(part.Data->NewInstance());
+        copy->ShallowCopy(part.Data);
+        auto flags = newArray<vtkUnsignedCharArray>(name, 1, copy->GetNumberOfElements(owner));
+        flags->Fill(0.0);
+        copy->GetAttributes(owner)->AddArray(flags);
+        part.Data = copy;
+      }
+    }
+  }
+}
+
 // All parts appended by one of VTK's filters, which keeps the arrays that all parts have. Field
 // data are those of the first part.
 template <class AppendT>
@@ -395,6 +427,7 @@ vtkSmartPointer<vtkPointSet> joinParts(std::vector<DataPart> parts, PointSetKind
   {
     part.Data = tooShort.RemovedFrom(part.Data.Get());
   }
+  addGhostFlags(parts);
   vtkSmartPointer<vtkPointSet> joined = joinWhole(parts, kind);
   tooShort.AddEmptyTo(joined);
   return joined;

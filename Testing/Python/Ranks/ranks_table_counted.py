@@ -40,6 +40,32 @@ data = self.GetPolyDataOutput()
 data.SetPoints(points)
 data.SetVerts(cell)
 """
+# Sites of which the first rank alone has hidden ones, and copies of another rank's. Others have no flags.
+# Their keys need 64 bits.
+SITES = """
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+controller = vtkMultiProcessController.GetGlobalController()
+rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+first, last = 24 * rank // ranks, 24 * (rank + 1) // ranks
+chosen = [(i, 2 if i in (2, 5) else 0) for i in range(first, last)]
+if rank == 0 and ranks > 1:
+    chosen += [(last, 1), (last + 1, 1)]
+points = vtkPoints()
+for i, _ in chosen:
+    points.InsertNextPoint(0.5 + i * 7 % 12, 0.2 + i * 5 % 7, 0)
+data = self.GetPolyDataOutput()
+data.SetPoints(points)
+keys = numpy_to_vtkIdTypeArray(numpy.array([2**40 + i for i, _ in chosen], numpy.int64), deep=1)
+keys.SetName("Key")
+data.GetPointData().AddArray(keys)
+if rank == 0:
+    flags = numpy_to_vtk(numpy.array([flag for _, flag in chosen], numpy.uint8), deep=1)
+    flags.SetName("vtkGhostType")
+    data.GetPointData().AddArray(flags)
+"""
 
 
 def pieces(others, values):
@@ -70,6 +96,8 @@ def give_rows(inputs):
     give("seeds of a mesh", simple.SampleDensity(Input=image, Seeds=shell, **usual))
     give("sites of a mesh", simple.EqualMassCells(Input=shell, Domain=simple.ExtractSubset(
         Input=image, VOI=[-4, 8, 0, 7, 3, 3]), Resolution=32), 1)
+    sites = simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=SITES)
+    give("hidden sites", simple.EqualMassCells(Input=sites, Resolution=32), 1)
     overlaps = pieces(5, "1.0 + numpy.tile(numpy.arange(size), 64)")
     first = pieces(0, "numpy.tile(numpy.arange(size), 64) - 50.0")
     for tables in ("Whole", "Tiled"):
