@@ -4,7 +4,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 
-#include "vtkRectifiedTransportModule.h" // for the export macro
+#include "vtkRectifiedTransportDrawingModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
@@ -18,7 +18,7 @@ namespace RectifiedTransport::Bridge
 // that is not convex may be wrong. What is inside a polygon or a region follows from the even-odd
 // rule; where edges cross there is a new point. The new cells have the cell data of a line of their
 // region, or of their polygon. Exported for the plugin. Throws as findOutlineRegions.
-VTKRECTIFIEDTRANSPORT_EXPORT void fillOutlines(vtkPolyData* data);
+VTKRECTIFIEDTRANSPORTDRAWING_EXPORT void fillOutlines(vtkPolyData* data);
 
 } // namespace RectifiedTransport::Bridge
 
