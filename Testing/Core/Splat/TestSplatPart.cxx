@@ -150,7 +150,7 @@ void checkFound(const GridSize<D>& size, SplatKernel kernel)
       for (int a = 0; a < D; ++a)
       {
         const std::int64_t from = cell[a] - first[static_cast<std::size_t>(3 * i + a)];
-        isFound = isFound && from >= 0 && from < setup.Job.Kept[a];
+        isFound = isFound && from >= 0 && from < setup.Job.Span[a];
       }
       EXPECT_TRUE(isFound || cells[c] == 0.0);
     }
