@@ -25,7 +25,7 @@ vtkStandardNewMacro(vtkBlueNoiseRelaxation);
 
 namespace
 {
-const char* const MethodTexts[] = { "GaussianBlueNoise", "OptimalTransport" };
+const char* const RelaxationMethodTexts[] = { "GaussianBlueNoise", "OptimalTransport" };
 } // namespace
 
 using namespace RectifiedTransport;
@@ -43,14 +43,14 @@ vtkBlueNoiseRelaxation::vtkBlueNoiseRelaxation()
 //------------------------------------------------------------------------------
 const char* vtkBlueNoiseRelaxation::GetMethodAsString()
 {
-  return choiceText(MethodTexts, this->Method);
+  return choiceText(RelaxationMethodTexts, this->Method);
 }
 
 //------------------------------------------------------------------------------
 int vtkBlueNoiseRelaxation::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  requireChoice("Method", this->Method, MethodTexts);
+  requireChoice("Method", this->Method, RelaxationMethodTexts);
   requireThat(
     this->MaximumIterations >= 0, "MaximumIterations", this->MaximumIterations, "at least 0");
   requireThat(this->Tolerance >= 0.0 && this->Tolerance < 1.0, "Tolerance", this->Tolerance,

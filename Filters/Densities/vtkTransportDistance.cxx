@@ -34,7 +34,7 @@ using namespace RectifiedTransport::Bridge;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 // The enumerations of the class index these.
-const char* const MethodTexts[] = { "Linearized", "Certified" };
+const char* const DistanceMethodTexts[] = { "Linearized", "Certified" };
 const char* const MassDifferenceTexts[] = { "Normalize", "Error" };
 
 // This bounds the columns of the table of coordinates, which hosts display.
@@ -78,7 +78,7 @@ vtkTransportDistance::~vtkTransportDistance() = default;
 //------------------------------------------------------------------------------
 const char* vtkTransportDistance::GetMethodAsString()
 {
-  return choiceText(MethodTexts, this->Method);
+  return choiceText(DistanceMethodTexts, this->Method);
 }
 
 //------------------------------------------------------------------------------
@@ -159,7 +159,7 @@ int vtkTransportDistance::RequestUpdateExtent(
 int vtkTransportDistance::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  requireChoice("Method", this->Method, MethodTexts);
+  requireChoice("Method", this->Method, DistanceMethodTexts);
   requireChoice("MassDifference", this->MassDifference, MassDifferenceTexts);
   const std::string rule = "from 1 to " + std::to_string(MaximumNumberOfCoordinates);
   requireThat(

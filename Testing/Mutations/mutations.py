@@ -131,8 +131,8 @@ OTHERS = [
     E(CORE + "SiteCells/PixelMasses.cxx", "(*this)[pixel] > 0 ? labels[pixel] : «-1»", "0"),
     E(CORE + "SiteCells/SiteCellPolygons.cxx", "if («area > 0»)", "true"),
     E(CORE + "SiteCells/SiteCellPolygons.cxx", "next.Side != edge.Side || «this->IsShared(headOf(edge))»", "false"),
-    E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != none»)\n    {\n      this->Append(",
-      "below != none && above != none"),
+    E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != noSite»)\n    {\n      this->Append(",
+      "below != noSite && above != noSite"),
     # the tables that filters share
     E(BRIDGE + "Store/Store.cxx", "if («entry.Type == type» && of.IsByContent(entry.Of))", "false"),
     E(BRIDGE + "Store/Store.cxx", "object.use_count() != 1", "false"),

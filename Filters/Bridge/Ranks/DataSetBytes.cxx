@@ -49,7 +49,7 @@ struct Header
 };
 
 // The order of the types in a message: the arrays of points first, then those of cells.
-constexpr std::array<int, 2> owners = { vtkDataObject::POINT, vtkDataObject::CELL };
+constexpr std::array<int, 2> dataOwners = { vtkDataObject::POINT, vtkDataObject::CELL };
 
 Header headerOf(vtkDataSet* data)
 {
@@ -63,11 +63,11 @@ Header headerOf(vtkDataSet* data)
     std::copy_n(image->GetSpacing(), 3, header.Geometry.begin() + 3);
     std::copy_n(image->GetDirectionMatrix()->GetData(), 9, header.Geometry.begin() + 6);
   }
-  for (std::size_t i = 0; i < owners.size(); ++i)
+  for (std::size_t i = 0; i < dataOwners.size(); ++i)
   {
     // For each attribute type (scalars, vectors, global ids, ...) the index of its array, -1 for
     // none.
-    data->GetAttributes(owners[i])->GetAttributeIndices(header.Active[i].data());
+    data->GetAttributes(dataOwners[i])->GetAttributeIndices(header.Active[i].data());
   }
   return header;
 }
@@ -77,7 +77,7 @@ std::vector<int> typesOf(vtkDataSet* data)
 {
   // The names of types in VTK's legacy format do not tell all types of one size apart.
   std::vector<int> types;
-  for (const int owner : owners)
+  for (const int owner : dataOwners)
   {
     vtkDataSetAttributes* attributes = data->GetAttributes(owner);
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
@@ -93,7 +93,7 @@ std::vector<int> typesOf(vtkDataSet* data)
 void restoreTypes(vtkDataSet* data, const std::vector<int>& types)
 {
   std::size_t next = 0;
-  for (const int owner : owners)
+  for (const int owner : dataOwners)
   {
     vtkDataSetAttributes* attributes = data->GetAttributes(owner);
     for (int i = 0; i < attributes->GetNumberOfArrays() && next < types.size(); ++i, ++next)
@@ -159,7 +159,7 @@ Bytes bytesOfDataSet(vtkDataSet* data)
   }
   // A shallow copy, because the active attributes of the caller's data set must not change.
   plain->ShallowCopy(data);
-  for (const int owner : owners)
+  for (const int owner : dataOwners)
   {
     vtkDataSetAttributes* attributes = plain->GetAttributes(owner);
     // Without active attributes the writer keeps the order of the arrays, so that indices stay
@@ -212,7 +212,7 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count)
     image->SetOrigin(header.Geometry.data());
     image->SetSpacing(header.Geometry.data() + 3);
     image->SetDirectionMatrix(header.Geometry.data() + 6);
-    for (const int owner : owners)
+    for (const int owner : dataOwners)
     {
       image->GetAttributes(owner)->ShallowCopy(made->GetAttributes(owner));
     }
@@ -221,12 +221,12 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count)
   }
   // The attributes come last, when each array is the one that stays.
   restoreTypes(made, types);
-  for (std::size_t i = 0; i < owners.size(); ++i)
+  for (std::size_t i = 0; i < dataOwners.size(); ++i)
   {
     for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
     {
-      made->GetAttributes(owners[i])->SetActiveAttribute(
-        header.Active[i][static_cast<std::size_t>(type)], type);
+      made->GetAttributes(dataOwners[i])
+        ->SetActiveAttribute(header.Active[i][static_cast<std::size_t>(type)], type);
     }
   }
   return made;

@@ -21,7 +21,7 @@ namespace
 {
 
 // Points in a range of a thread.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr std::int64_t seedGrain = std::int64_t{ 1 } << 14;
 
 // The bytes that the core takes while it runs.
 double coreMemory(bool byTransport, int dimension, double cells, double points)
@@ -66,7 +66,7 @@ public:
   {
     double* points = this->Points->GetPointer(0);
     const PointSpan<D> relaxed = this->Relaxed();
-    progress.ForEach(relaxed.size(), grain, [&](std::int64_t i) {
+    progress.ForEach(relaxed.size(), seedGrain, [&](std::int64_t i) {
       double* x = points + 3 * this->Counted.Point(i);
       // The same conversion as in Read gives the same bits, so that a point that was not moved is
       // found by equality. To index space and back would change its last bits.

@@ -29,7 +29,7 @@ namespace
 {
 
 // Particles between two polls for abort.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t particleGrain = std::int64_t{ 1 } << 12;
 
 // All messages name the array first, because the particles may come from any program.
 [[noreturn]] void fail(const char* name, const std::string& what)
@@ -133,7 +133,7 @@ private:
     double total = 0.0;
     const std::int64_t count = masses ? this->Counted.Count() : 0;
     // In order: the error names the first wrong value on any number of threads.
-    progress.ForEachInOrder(count, grain, [&](std::int64_t i) {
+    progress.ForEachInOrder(count, particleGrain, [&](std::int64_t i) {
       if (!(masses[i] >= 0.0) || std::isinf(masses[i]))
       {
         this->FailValue("Mass", masses[i], i, "every mass must be finite and not negative");
@@ -158,7 +158,7 @@ private:
   void CheckDisplacements(Progress& progress)
   {
     const ConstPointSpan<3> displacements(this->Displacements->data(), this->Counted.Count());
-    progress.ForEachInOrder(this->Counted.Count(), grain, [&](std::int64_t i) {
+    progress.ForEachInOrder(this->Counted.Count(), particleGrain, [&](std::int64_t i) {
       // The cost is a mean of squares, |displacement|^2, which must be a double for each particle.
       double squared = 0.0;
       for (int r = 0; r < 3; ++r)

@@ -14,7 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t cellGrain = std::int64_t{ 1 } << 12;
 
 // The centres of the own cells with mass, after their motion.
 struct AdvectedCentres
@@ -35,7 +35,7 @@ LargeBuffer<double> sumMoves(const AdvectedCells<D>& cells, int axis, Progress& 
   LargeBuffer<double> terms(axis < D ? count : 0);
   if (axis < D)
   {
-    progress.Threads().For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    progress.Threads().For(count, cellGrain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         double before[D];
@@ -74,7 +74,7 @@ AdvectedCentres moveCentres(
   moved.Numbers.resize(own.size());
   const auto all = LatticePart<D>::WholeOf(cells.Grid.template Size<D>());
   const double measure = cells.Grid.CellMeasure();
-  progress.Threads().For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  progress.Threads().For(count, cellGrain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       const auto n = static_cast<std::size_t>(i);

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t blendGrain = std::int64_t{ 1 } << 12;
 constexpr int mostRounds = 20; // fixed-point iterations of a barycenter
 
 // Particles and maps are in the index spaces of the densities, which differ, and in lengths along
@@ -81,7 +81,7 @@ private:
   {
     LargeBuffer<double> index(this->Count * D);
     double* out = index.data();
-    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    this->Work.Threads().For(this->Count, blendGrain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         grid.ToIndex<D>(positions[i], out + D * i);
@@ -109,7 +109,7 @@ private:
     LargeBuffer<double> slack(this->Count);
     plan.Certificate()->Slack(points, images, slack.data(), progress);
     double* sum = this->Result.Slack.data();
-    this->Work.Threads().For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    this->Work.Threads().For(this->Count, blendGrain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         sum[i] += weight * this->Scale.SquareFromUnits(slack.data()[i]);

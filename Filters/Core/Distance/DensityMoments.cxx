@@ -16,14 +16,14 @@ namespace RectifiedTransport
 namespace
 {
 
-using Matrix = Eigen::Matrix3d;
+using Covariance3 = Eigen::Matrix3d;
 
 // Sums of f, f x and f x x^T over the cells' centres.
 struct RawMoments
 {
   double Mass = 0.0;
   Eigen::Vector3d First = Eigen::Vector3d::Zero();
-  Matrix Second = Matrix::Zero();
+  Covariance3 Second = Covariance3::Zero();
 
   void Add(const RawMoments& other)
   {
@@ -35,16 +35,16 @@ struct RawMoments
 
 // The symmetric root of a positive semidefinite matrix; eigenvalues that rounding makes negative
 // count as 0.
-Matrix rootOf(const Matrix& matrix)
+Covariance3 rootOf(const Covariance3& matrix)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix);
+  const Eigen::SelfAdjointEigenSolver<Covariance3> solver(matrix);
   const Eigen::Vector3d roots = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   return solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
 }
 
-Matrix matrixOf(const DensityMoments& moments)
+Covariance3 matrixOf(const DensityMoments& moments)
 {
-  return Eigen::Map<const Matrix>(moments.Covariance[0].data()); // symmetric
+  return Eigen::Map<const Covariance3>(moments.Covariance[0].data()); // symmetric
 }
 
 } // namespace
@@ -122,9 +122,9 @@ double leastSquaredDistance(const DensityMoments& a, const DensityMoments& b)
     const double offset = a.Mean[axis] - b.Mean[axis];
     square += offset * offset;
   }
-  const Matrix first = matrixOf(a);
-  const Matrix second = matrixOf(b);
-  const Matrix root = rootOf(first);
+  const Covariance3 first = matrixOf(a);
+  const Covariance3 second = matrixOf(b);
+  const Covariance3 root = rootOf(first);
   const double cross = rootOf(root * second * root).trace();
   const double traces = first.trace() + second.trace();
   // Subtract what rounding of the moments and roots may add, so that the bound stays valid.

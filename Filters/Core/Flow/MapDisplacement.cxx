@@ -17,7 +17,7 @@ namespace
 // Cells a chunk of parallel loops.
 constexpr std::int64_t chunk = 4096;
 
-void checkCount(std::int64_t count, double expected)
+void requireCount(std::int64_t count, double expected)
 {
   if (static_cast<double>(count) != expected)
   {
@@ -45,7 +45,7 @@ MapDisplacement<Dimension>::MapDisplacement(const ImageGrid& grid,
   , Positions(positions)
   , Density(density)
 {
-  checkCount(positions.size(), numberOfCells<Dimension>(within.Cells));
+  requireCount(positions.size(), numberOfCells<Dimension>(within.Cells));
 }
 
 // The displacements of cells [first, last) of the part, and the sums of those that are `counted`:
@@ -55,7 +55,7 @@ void MapDisplacement<Dimension>::Write(std::int64_t first, std::int64_t last,
   const LatticePart<Dimension>& counted, PointSpan<3> displacements, DisplacementSums& sums,
   Progress& progress) const
 {
-  checkCount(displacements.size(), numberOfCells<Dimension>(this->Part.Cells));
+  requireCount(displacements.size(), numberOfCells<Dimension>(this->Part.Cells));
   sums.Add(this->Sum(first, last, counted, displacements.data(), progress));
 }
 

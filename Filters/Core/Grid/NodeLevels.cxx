@@ -13,7 +13,7 @@ namespace
 
 // An axis of at most so many cells is not halved any more: the coarsest nodes still resolve the
 // density's shape.
-constexpr std::int64_t coarsest = 12;
+constexpr std::int64_t fewestCells = 12;
 
 // The cosine transform of a line needs an even number of cells, at least 2.
 std::int64_t evenAtLeast(double cells)
@@ -73,7 +73,7 @@ std::vector<GridSize<Dimension>> nodeLevels(const GridSize<Dimension>& finest)
     GridSize<Dimension> next = levels.back();
     for (std::int64_t& cells : next)
     {
-      cells = cells <= coarsest ? cells : evenAtLeast(0.5 * static_cast<double>(cells));
+      cells = cells <= fewestCells ? cells : evenAtLeast(0.5 * static_cast<double>(cells));
     }
     if (next == levels.back())
     {

@@ -23,7 +23,7 @@ namespace
 // from less excess and needs fewer.
 constexpr std::array<int, 2> iterations = { 6, 4 }; // in each correction
 constexpr double leastWeight = 0.1;                 // in units of the mean density
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr std::int64_t balanceGrain = std::int64_t{ 1 } << 14;
 
 // The grid on which Poisson's equation is solved. Its cells are two cells wide, or one where cells
 // are few, as it costs little there.
@@ -44,7 +44,7 @@ NodeValues findExcess(const CellDensity<Dimension>& source, const CellDensity<Di
   const auto shares = shareImages<Dimension>(source, target, corners, withCosts, progress);
   NodeValues residual(target.NumberOfCells());
   double* values = residual.data();
-  progress.ForEach(residual.size(), grain, [&](std::int64_t cell) {
+  progress.ForEach(residual.size(), balanceGrain, [&](std::int64_t cell) {
     values[cell] = static_cast<double>(shares.ResidualOf(cell, target)) / integerUnit;
   });
   return hatSums<Dimension>(values, target.Size(), nodes, progress);
@@ -55,7 +55,7 @@ template <int Dimension>
 void moveCorners(const GradientField<Dimension>& moves, const CellPlacement<Dimension>& toNodes,
   NodeMap<Dimension>& corners, Progress& progress)
 {
-  progress.ForEach(corners.Grid.NumberOfNodes(), grain, [&](std::int64_t corner) {
+  progress.ForEach(corners.Grid.NumberOfNodes(), balanceGrain, [&](std::int64_t corner) {
     Point<Dimension> at;
     for (std::size_t axis = 0; axis < at.size(); ++axis)
     {

@@ -19,7 +19,7 @@ namespace
 {
 
 // Corners a chunk of parallel loops.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr std::int64_t couplingGrain = std::int64_t{ 1 } << 14;
 
 // The images of the corners of cells, in cells: interpolates a map at nodes if these are not the
 // corners themselves.
@@ -43,7 +43,7 @@ NodeMap<Dimension> atCorners(
   const auto placeOf = [&](std::int64_t corner, int axis) {
     return static_cast<double>(corner * map.Grid.Cells[axis]) / static_cast<double>(cells[axis]);
   };
-  const std::int64_t lines = std::max<std::int64_t>(1, grain / line);
+  const std::int64_t lines = std::max<std::int64_t>(1, couplingGrain / line);
   progress.For(
     corners.Grid.NumberOfNodes(), lines * line, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t begin = first; begin < last; begin += line)

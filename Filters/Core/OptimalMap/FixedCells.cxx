@@ -18,13 +18,13 @@ namespace
 {
 
 // Cells a chunk of parallel loops.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr std::int64_t stillGrain = std::int64_t{ 1 } << 14;
 
 // These tolerances bound the errors that a potential on nodes has in a part that truly stands
 // still.
 constexpr double leastSame = 1.0 - 2e-3; // ratio of two masses that count as the same
 constexpr double mostSlack = 0.02;       // ratio to the squared distance of nodes
-constexpr std::size_t fewest = 16;       // cells of a part, unless only voids surround it
+constexpr std::size_t fewestStill = 16;  // cells of a part, unless only voids surround it
 constexpr double mostMove = 0.2;         // in the mean of a part, in cells between nodes
 // What may cross a part's border, of its mass, and of that of the cells beyond: where more does,
 // these move far, and the part may move with them.
@@ -152,7 +152,7 @@ private:
   // A cell may stand still if both masses agree and one of its corners is next to its own image.
   void Classify()
   {
-    this->Work.ForEach(this->Nodes.Count(), grain, [&](std::int64_t cell) {
+    this->Work.ForEach(this->Nodes.Count(), stillGrain, [&](std::int64_t cell) {
       const double source = MassOf(this->SourceCells, cell);
       const double target = MassOf(this->TargetCells, cell);
       const auto [less, more] = std::minmax(source, target);
@@ -245,7 +245,7 @@ private:
     // A part is closed if little crosses its border, beside its own mass or beside what lies
     // beyond. A small part next to other mass is no evidence.
     const bool isClosed = crossing <= std::max(mostCrossing * mass, mostBeyond * beyond);
-    const bool isFew = this->Part.size() < fewest && beyond > 0.0;
+    const bool isFew = this->Part.size() < fewestStill && beyond > 0.0;
     if (isFew || moved > mostMove * mass || !isClosed)
     {
       for (const std::int64_t own : this->Part)
@@ -287,7 +287,7 @@ FixedCells<Dimension>::FixedCells(const PotentialSolver<Dimension>& solver, int 
   constexpr int all = 2;
   // Whether none and all of the cells with mass stand still.
   const int found = reduceChunks(
-    progress, target.NumberOfCells(), grain, none | all,
+    progress, target.NumberOfCells(), stillGrain, none | all,
     [&](std::int64_t first, std::int64_t last) {
       // Bits of what may hold of a chunk's cells; chunks are combined by "and". Cells without mass
       // decide nothing.

@@ -16,7 +16,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t pointGrain = std::int64_t{ 1 } << 13;
 
 // T(x_i) = x_i - grad potential(x_i) at each node, in cells of the nodes.
 template <int Dimension>
@@ -134,7 +134,7 @@ PointMap<Dimension>::PointMap(const PotentialSolver<Dimension>& solver, int from
     NodeValues restricted(nodes);
     double* values = restricted.data();
     const double* potential = this->Potential;
-    progress.ForEach(nodes, grain, [=](std::int64_t i) {
+    progress.ForEach(nodes, pointGrain, [=](std::int64_t i) {
       values[i] = hats[i] > 0.0 ? potential[i] : -std::numeric_limits<double>::infinity();
     });
     this->Minimizers = LargeBuffer<std::int64_t>(nodes);

@@ -22,7 +22,7 @@ namespace
 {
 
 // Chunks of loops: 8192 nodes, which are 64 KiB of doubles and fit a core's cache.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t potentialGrain = std::int64_t{ 1 } << 13;
 // A coarse level only serves as the start of the next finer one, so few iterations suffice there.
 constexpr int coarseIterations = 3;
 // The weighted equation is solved by so many steps of preconditioned conjugate gradients. Its
@@ -82,7 +82,7 @@ double sumOfProducts(const double* a, const double* b, std::int64_t count)
 double sumOfProducts(const double* a, const double* b, std::int64_t count, Progress& progress)
 {
   return reduceChunks(
-    progress, count, grain / 4, 0.0,
+    progress, count, potentialGrain / 4, 0.0,
     [=](std::int64_t first, std::int64_t last) {
       return sumOfProducts(a + first, b + first, last - first);
     },
@@ -433,7 +433,7 @@ void PotentialSolver<Dimension>::HalfStep(Scratch& scratch, int side, Progress& 
     double* movedOther = scratch.NewOther.data();
     const double* potential = own.Potential.data();
     const double length = step;
-    progress.ForEach(this->Nodes.NumberOfNodes(), grain,
+    progress.ForEach(this->Nodes.NumberOfNodes(), potentialGrain,
       [=](std::int64_t i) { moved[i] = potential[i] + length * p[i]; });
     // For the moved potential phi: psi = phi^c, then phi = psi^c, which is at least the moved one.
     costTransform<Dimension>(this->Nodes, moved, movedOther, progress);

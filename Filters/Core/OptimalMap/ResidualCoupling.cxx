@@ -164,18 +164,18 @@ private:
   {
     // Few pairs have one cell with too much and one with too little. Eight pairs at a time are
     // tested for it by the signs' exclusive or, which the compiler turns into vectors.
-    constexpr std::int64_t together = 8;
+    constexpr std::int64_t atOnce = 8;
     const std::int64_t* residual = this->Residual.data();
-    for (; first + together <= last; first += together)
+    for (; first + atOnce <= last; first += atOnce)
     {
       std::int64_t signs = 0; // The sign bit is set if any pair's signs differ.
-      for (std::int64_t i = 0; i < together; ++i)
+      for (std::int64_t i = 0; i < atOnce; ++i)
       {
         signs |= residual[first + i] ^ residual[first + i + step];
       }
       if (signs < 0)
       {
-        this->SendEach(first, first + together, step, shift);
+        this->SendEach(first, first + atOnce, step, shift);
       }
     }
     this->SendEach(first, last, step, shift);

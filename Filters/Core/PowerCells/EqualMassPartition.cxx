@@ -16,8 +16,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t firstSlice = 1 << 10; // cells integrated before the first check for abort
-constexpr std::int64_t firstAdded = 1 << 15; // cells whose few side masses are added before it
+constexpr std::int64_t partitionSlice = 1 << 10; // cells integrated before the first poll
+constexpr std::int64_t firstAdded = 1 << 15;     // cells whose few side masses are added before it
 // The tolerance of Newton's method. Nearly all solutions are better by an order of magnitude or
 // more, since the last step converges quadratically. It is below massTolerance.
 constexpr double solvedTo = 4e-7;
@@ -158,7 +158,7 @@ EqualMassPartition::Deviation EqualMassPartition::Evaluate(
   this->Cells.Update(weights.data(), progress);
   this->Sides.resize(static_cast<std::size_t>(this->Cells.NumberOfChunks()));
   this->VisitCells(
-    progress, firstSlice, [this](std::int64_t place) { this->IntegrateSides(place); });
+    progress, partitionSlice, [this](std::int64_t place) { this->IntegrateSides(place); });
   this->VisitCells(progress, firstAdded,
     [this](std::int64_t place) { this->AddSides(this->Cells.SiteAt(place)); });
   double squares = 0.0;
@@ -458,7 +458,7 @@ bool EqualMassPartition::FindDirection()
 void EqualMassPartition::IntegrateCells(Progress& progress)
 {
   this->Integrated.resize(this->Cells.Sites().size());
-  this->VisitCells(progress, firstSlice, [this](std::int64_t place) {
+  this->VisitCells(progress, partitionSlice, [this](std::int64_t place) {
     this->PrefetchCell(place + 1);
     const std::int64_t site = this->Cells.SiteAt(place);
     this->Integrated[static_cast<std::size_t>(site)] = this->IntegrateCell(site);

@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t firstSlice = 1 << 9; // cells; slow where all cells meet in a point
+constexpr std::int64_t diagramSlice = 1 << 9; // cells; slow where all cells meet in a point
 
 } // namespace
 
@@ -183,7 +183,7 @@ void PowerDiagram::CutByKnown(const double* weights, Progress& progress)
         this->Now.Store(this->SiteOf(site), site, place / cellsOfChunk, cutter);
       }
     },
-    firstSlice);
+    diagramSlice);
 }
 
 // Cells cut by only some of the sites contain the true cells. If they fit together, side to side
@@ -292,7 +292,7 @@ void PowerDiagram::CutByAll(
         this->StateOf(site).store(CutBy::All, std::memory_order_relaxed);
       }
     },
-    firstSlice);
+    diagramSlice);
 }
 
 // Cuts the cell of a site by the neighbours of a known cell, with the new weights.

@@ -13,8 +13,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double mostCells = 1 << 22; // cells of the density that a turn may need
-constexpr std::int64_t grain = 256;   // blocks a range
+constexpr double mostCells = 1 << 22;    // cells of the density that a turn may need
+constexpr std::int64_t shareGrain = 256; // blocks a range
 
 // Returns the corners of a box as points of index space.
 template <int Dimension>
@@ -153,8 +153,8 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
       continue;
     }
     progress.ForEach(
-      batch.Count, grain, [&](std::int64_t i) { found[i] = shareIn(blocks.Box(batch.First + i)); },
-      16 * grain);
+      batch.Count, shareGrain,
+      [&](std::int64_t i) { found[i] = shareIn(blocks.Box(batch.First + i)); }, 16 * shareGrain);
   }
 }
 

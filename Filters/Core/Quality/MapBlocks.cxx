@@ -25,7 +25,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = 64; // blocks or faces a chunk
+constexpr std::int64_t blockGrain = 64; // blocks or faces a chunk
 
 template <int Dimension>
 class BlocksRun
@@ -105,7 +105,7 @@ public:
         // A block may reach into several batches, and each adds the mass in its own rows.
         const auto blocks = this->BlocksIn(batch);
         const std::int64_t begin = blocks[0];
-        work.For(blocks[1] - begin, grain, [&](std::int64_t first, std::int64_t last) {
+        work.For(blocks[1] - begin, blockGrain, [&](std::int64_t first, std::int64_t last) {
           for (std::int64_t i = begin + first; i < begin + last; ++i)
           {
             const auto at = static_cast<std::size_t>(i);
@@ -167,14 +167,14 @@ private:
   {
     const LatticePart<Dimension>& faces = this->Faces[axis];
     progress.ForEach(
-      count, grain,
+      count, blockGrain,
       [&](std::int64_t i) {
         const std::int64_t face = numberOf(i);
         // The integral of the part of the face's image that is in the current rows.
         this->Through[axis][static_cast<std::size_t>(face)] +=
           this->Images.Across(axis, faces.CellOf(face), integral);
       },
-      64 * grain);
+      64 * blockGrain);
   }
 
   // Sorts items by the layers of the grid that they lie in; `samplesOf` gives an item's samples. If
@@ -188,7 +188,7 @@ private:
     const std::int64_t each = this->Rows.LayersAtOnce();
     if (Dimension > 1 && !cells.IsEmpty() && cells.Low[Last] / each != (cells.End(Last) - 1) / each)
     {
-      progress.ForEach(count, grain, [&](std::int64_t i) {
+      progress.ForEach(count, blockGrain, [&](std::int64_t i) {
         spans[static_cast<std::size_t>(i)] = this->Images.LayersOf(samplesOf(i), this->Size[Last]);
       });
     }
@@ -305,7 +305,7 @@ private:
   {
     constexpr std::int64_t size = MapBlocks<Dimension>::Size;
     progress.ForEach(
-      static_cast<std::int64_t>(blocks.size()), grain,
+      static_cast<std::int64_t>(blocks.size()), blockGrain,
       [&](std::int64_t i) {
         const std::int64_t number = blocks[static_cast<std::size_t>(i)];
         const GridSize<Dimension> block = this->Blocks.CellOf(number);
@@ -324,7 +324,7 @@ private:
             this->Images.Across(axis, above, mass) - this->Images.Across(axis, block, mass);
         }
       },
-      16 * grain);
+      16 * blockGrain);
   }
 
   // Returns the relative error, forward, of the mass in the image of a block.
@@ -430,7 +430,7 @@ private:
   std::vector<double> Errors(const Error& error, Progress& progress)
   {
     std::vector<double> errors(static_cast<std::size_t>(this->Count));
-    progress.ForEach(this->Count, 16 * grain,
+    progress.ForEach(this->Count, 16 * blockGrain,
       [&](std::int64_t i) { errors[static_cast<std::size_t>(i)] = error(i); });
     return errors;
   }

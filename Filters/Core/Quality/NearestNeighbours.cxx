@@ -152,7 +152,7 @@ private:
   std::vector<ItemBox> Boxes;
 };
 
-constexpr std::int64_t grain = 512;
+constexpr std::int64_t neighbourGrain = 512;
 
 constexpr std::size_t mostAsked = std::size_t{ 1 } << 18; // points that a rank asks about at a time
 
@@ -169,7 +169,7 @@ std::vector<double> answersTo(
 {
   std::vector<double> answers(queries.size());
   progress.ForEach(
-    static_cast<std::int64_t>(queries.size()), grain,
+    static_cast<std::int64_t>(queries.size()), neighbourGrain,
     [&](std::int64_t i) {
       const Query& query = queries[static_cast<std::size_t>(i)];
       constexpr std::int64_t notHere = -1;
@@ -177,7 +177,7 @@ std::vector<double> answersTo(
       answers[static_cast<std::size_t>(i)] =
         tree.Search({ { query.X[0], query.X[1], query.X[2] }, notHere }, query.Best);
     },
-    grain);
+    neighbourGrain);
   return answers;
 }
 
@@ -239,14 +239,14 @@ void nearestDistances(ConstPointSpan<3> points, double* distances, const Context
   PointTree tree(points.size());
   tree.Build(points, stages["tree"]);
   stages["search"].ForEach(
-    points.size(), grain,
+    points.size(), neighbourGrain,
     [&](std::int64_t i) {
       // Points that are consecutive in the tree are neighbours in space, so the caches help.
       const TreePoint& point = tree.At(i);
       const double squared = tree.Search(point, std::numeric_limits<double>::infinity());
       distances[point.Id] = areSeveral ? squared : std::sqrt(squared);
     },
-    grain);
+    neighbourGrain);
   if (areSeveral)
   {
     searchOnRanks(tree, points.size(), distances, *context.Group, stages["ranks"]);

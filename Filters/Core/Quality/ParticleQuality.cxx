@@ -29,7 +29,7 @@ namespace
 {
 
 // A thread takes so many particles or blocks at a time.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t particleGrain = std::int64_t{ 1 } << 12;
 constexpr std::int64_t noBlock = -1;
 constexpr double farOutside = 1e150; // in sizes of the domain; its square is finite
 
@@ -98,7 +98,7 @@ private:
   template <class Kernel>
   void InOrder(std::int64_t count, Progress& progress, const Kernel& kernel)
   {
-    progress.ForEachInOrder(count, grain, kernel);
+    progress.ForEachInOrder(count, particleGrain, kernel);
   }
 
   // Returns the sum of value(i) over the particles of all ranks, in their order.
@@ -128,7 +128,7 @@ private:
   {
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
-    progress.ForEach(this->Count, grain, [&](std::int64_t i) {
+    progress.ForEach(this->Count, particleGrain, [&](std::int64_t i) {
       // Coordinates are scaled by the domain's size, so that squares of distances neither overflow
       // nor vanish.
       const double* x = this->Particles.Points[i];
@@ -286,7 +286,7 @@ private:
     const PointSpan<Dimension> index(this->Points.data(), this->Count);
     LargeBuffer<double> measures(this->Count);
     double* measure = measures.data();
-    stages["shares"].ForEach(this->Count, grain, [=](std::int64_t i) {
+    stages["shares"].ForEach(this->Count, particleGrain, [=](std::int64_t i) {
       const double share = this->Share(i);
       // A spacing needs a particle inside the domain, with mass, that has a neighbour.
       const bool isDefined =
@@ -301,7 +301,7 @@ private:
       index, boxAspect<Dimension>(this->Grid), measure, measure, stages["measures"]);
     // The side of a cube with the measure of a cell: distances are physical, measures in cells.
     const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
-    stages["spacings"].ForEach(this->Count, grain, [=](std::int64_t i) {
+    stages["spacings"].ForEach(this->Count, particleGrain, [=](std::int64_t i) {
       spacing[i] =
         spacing[i] < 0.0 ? spacing[i] : spacing[i] / (largestSpacing<Dimension>(measure[i]) * side);
     });

@@ -14,8 +14,8 @@ namespace
 
 // Chunks in leaves, nodes or points, and in blocks of points. They are fixed, so that sums do not
 // depend on the number of threads.
-constexpr std::int64_t grain = 256;
-constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
+constexpr std::int64_t repulsionGrain = 256;
+constexpr std::int64_t repulsionSlice = 16 * repulsionGrain; // a few milliseconds
 constexpr std::int64_t blockGrain = 16;
 
 } // namespace
@@ -46,7 +46,7 @@ NeighbourTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progr
 {
   std::vector<ScaledPoint<Dimension>> sources(static_cast<std::size_t>(this->Tree.Leaves()));
   progress.ForEach(
-    this->Tree.Leaves(), grain,
+    this->Tree.Leaves(), repulsionGrain,
     [&](std::int64_t leaf) {
       const Point<Dimension> low = this->Tree.LeafLow(leaf);
       const Point<Dimension> sides = this->Tree.LeafSides(leaf);
@@ -87,7 +87,7 @@ NeighbourTree<Dimension> RepulsionEnergy<Dimension>::FindSources(Progress& progr
       sources[static_cast<std::size_t>(leaf)] =
         scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
     },
-    firstSlice);
+    repulsionSlice);
   // Leaves without mass attract nothing.
   sources.erase(std::remove_if(sources.begin(), sources.end(),
                   [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
@@ -162,20 +162,20 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     // A(source).
     std::vector<double> parts(static_cast<std::size_t>(sources.Size()));
     progress.ForEach(
-      sources.Size(), grain,
+      sources.Size(), repulsionGrain,
       [&](std::int64_t i) {
         const ScaledPoint<Dimension> source = sources.Get(i);
         const Point<Dimension> x = pointAt<Dimension>(source.X);
         parts[static_cast<std::size_t>(i)] =
           source.Mass * this->Tree.Evaluate(attraction, this->Tree.Locate(x))[0];
       },
-      firstSlice);
+      repulsionSlice);
     this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
   }
   // The spacing and A are interleaved, so that one evaluation with common weights gives both.
   this->Fields.resize(attraction.size());
   progress.ForEach(
-    this->Tree.Nodes(), grain,
+    this->Tree.Nodes(), repulsionGrain,
     [&](std::int64_t i) {
       const auto node = static_cast<std::size_t>(i);
       for (std::size_t entry = 0; entry < attraction[node].size(); ++entry)
@@ -183,7 +183,7 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
         this->Fields[node][entry] = { this->Tree.Spacing()[node][entry], attraction[node][entry] };
       }
     },
-    firstSlice);
+    repulsionSlice);
   progress.Check();
 }
 
@@ -216,7 +216,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   // First pass: the spacing and A at each point. A block of 16 points is located and its nodes are
   // prefetched before the first is evaluated: the latency of memory is then hidden.
   progress.For(
-    count, grain,
+    count, repulsionGrain,
     [&](std::int64_t first, std::int64_t last) {
       constexpr std::int64_t most = 16; // at once
       std::array<typename SpacingTree<Dimension>::Place, most> places;
@@ -247,7 +247,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
         }
       }
     },
-    firstSlice);
+    repulsionSlice);
   this->Particles.Update();
   // Second pass: the repulsion. The double sum over points counts each pair twice, and K is
   // symmetric, so dE/dx_i = (2 / N) (sum over j of dK(x_i, x_j)/dx_i - dA/dx_i), with total

@@ -11,8 +11,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = 256;
-constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
+constexpr std::int64_t fieldGrain = 256;
+constexpr std::int64_t fieldSlice = 16 * fieldGrain; // a few milliseconds
 
 } // namespace
 
@@ -64,7 +64,7 @@ void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progr
   // Nodes read their neighbours' entries while others are written: all read the field as it was.
   const Field given = field;
   progress.ForEach(
-    this->Nodes(), grain,
+    this->Nodes(), fieldGrain,
     [&](std::int64_t i) {
       const auto node = static_cast<std::size_t>(i);
       const Point<Dimension> x = this->NodePoint(i);
@@ -97,7 +97,7 @@ void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progr
         }
       }
     },
-    firstSlice);
+    fieldSlice);
   if (!first)
   {
     this->Join(field);
@@ -112,11 +112,11 @@ void SpacingTree<Dimension>::FindSpacing(Progress& progress)
   Field& field = this->SpacingField;
   field.assign(this->NodePlaces.size(), {});
   progress.ForEach(
-    this->Nodes(), grain,
+    this->Nodes(), fieldGrain,
     [&](std::int64_t node) {
       field[static_cast<std::size_t>(node)][0] = this->ExactSpacing(this->NodePoint(node));
     },
-    4 * grain);
+    4 * fieldGrain);
   progress.Check();
   this->FindMixed(field, true, progress);
   progress.Check();

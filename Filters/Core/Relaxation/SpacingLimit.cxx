@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = 256;
+constexpr std::int64_t limitGrain = 256;
 
 // The bound of the mean number of neighbours: about 20 times as many as points have that are
 // distributed like the density. More are affordable if there are few points, as long as there are
@@ -57,13 +57,13 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
   }
   std::vector<ScaledPoint<Dimension>> scaled(static_cast<std::size_t>(points.size()));
   progress.ForEach(
-    points.size(), grain,
+    points.size(), limitGrain,
     [&](std::int64_t i) {
       const Point<Dimension> x = pointAt<Dimension>(points[i]);
       const double spacing = tree.Evaluate(tree.Spacing(), tree.Locate(x))[0];
       scaled[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, spacing, 1.0);
     },
-    16 * grain);
+    16 * limitGrain);
   NeighbourTree<Dimension> neighbours;
   neighbours.Build(scaled, progress);
   // Lowers the largest spacing by 30 % a round, until the sample has an affordable number of

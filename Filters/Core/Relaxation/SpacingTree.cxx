@@ -14,8 +14,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = 256;
-constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
+constexpr std::int64_t treeGrain = 256;
+constexpr std::int64_t treeSlice = 16 * treeGrain; // a few milliseconds
 // The side of roots, in units of the finest width where the spacing is the mean. It is a power of
 // two times slightly less than that width: rounding then does not divide the leaves of a uniform
 // density once more.
@@ -140,7 +140,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
     if (depth < DeepestLevel)
     {
       progress.ForEach(
-        static_cast<std::int64_t>(divided.size()), grain,
+        static_cast<std::int64_t>(divided.size()), treeGrain,
         [&](std::int64_t i) {
           Point<Dimension> centre =
             this->PointOf(this->Boxes[first + static_cast<std::size_t>(i)].Low);
@@ -150,7 +150,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
           }
           divided[static_cast<std::size_t>(i)] = this->IsSpacingBelow(widest / finest, centre);
         },
-        4 * grain);
+        4 * treeGrain);
     }
     for (std::size_t i = first; i < last; ++i)
     {
@@ -269,12 +269,12 @@ void SpacingTree<Dimension>::Number(Progress& progress)
   progress.Check();
   this->NodeLeaf.resize(this->NodePlaces.size());
   progress.ForEach(
-    this->Nodes(), grain,
+    this->Nodes(), treeGrain,
     [&](std::int64_t node) {
       this->NodeLeaf[static_cast<std::size_t>(node)] =
         this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
     },
-    firstSlice);
+    treeSlice);
   this->Boxes = {}; // no longer needed: the leaves have their own
   this->FindConstrained();
 }

@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t latticeGrain = std::int64_t{ 1 } << 12;
 
 // The numbers of cells that a lattice's box may have: as many as an image of the default
 // resolution, or up to 64 for each cell that is there. A larger box is mostly empty, and its grid
@@ -84,7 +84,7 @@ bool CellLattice::Place(const CellSet& cells, bool hasMass, Progress& progress)
   // place = at_0 + rows_0 (at_1 + rows_1 at_2)
   const std::array<int, 3> rows = this->Box.NumberOfValues();
   const auto misfits = reduceChunks(
-    progress, cells.NumberOfCells, grain, std::int64_t{ 0 },
+    progress, cells.NumberOfCells, latticeGrain, std::int64_t{ 0 },
     [&](std::int64_t first, std::int64_t last) {
       BoxCorners corners(cells, this->Dimension);
       std::int64_t others = 0;

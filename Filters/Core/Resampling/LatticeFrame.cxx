@@ -21,7 +21,7 @@ namespace
 using Eigen::Vector3d;
 
 // Chunks of cells have this size for any number of threads, so that sums have the same bits.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t frameGrain = std::int64_t{ 1 } << 12;
 
 // The edges of a cell from its first corner, in lengths.
 using Edges = std::array<Vector3d, 3>;
@@ -196,7 +196,7 @@ Part reduceCells(const CellSets& sets, int dimension, Progress& progress, const 
   {
     all = combine(all,
       reduceChunks(
-        progress, set->NumberOfCells, grain, Part(),
+        progress, set->NumberOfCells, frameGrain, Part(),
         [&](std::int64_t first, std::int64_t last) {
           BoxCorners corners(*set, dimension);
           Part part;

@@ -22,7 +22,7 @@ namespace
 {
 
 // A range has so many pixels or sites.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr std::int64_t densityGrain = std::int64_t{ 1 } << 14;
 
 // Scales points from the index space of one grid to that of another one on the same domain.
 template <int Dimension>
@@ -30,7 +30,7 @@ void rescale(PointSpan<Dimension> points, const GridSize<Dimension>& from,
   const GridSize<Dimension>& to, Progress& progress)
 {
   const Point<Dimension> step = latticeStep<Dimension>(from, to);
-  progress.ForEach(points.size(), grain, [&](std::int64_t i) {
+  progress.ForEach(points.size(), densityGrain, [&](std::int64_t i) {
     double* x = points[i];
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -125,7 +125,7 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
   Progress progress(context);
   Stages stages(progress, { { "sites", 3 }, { "pixels", 7 } });
   // Sites outside the domain count as the nearest points of its border.
-  stages["sites"].ForEach(sites.size(), grain, [&](std::int64_t i) {
+  stages["sites"].ForEach(sites.size(), densityGrain, [&](std::int64_t i) {
     std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
     outside += grid.NearestIndex<Dimension>(sites[i], inside[i]) ? 0 : 1;
   });
@@ -236,7 +236,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
     toSites.ForwardToCells(positions, labels, options, stages["labels"]);
   }
   stages["groups"].ForEach(
-    pixels, grain, [&](std::int64_t pixel) { labels[pixel] = sites.Find(labels[pixel]); });
+    pixels, densityGrain, [&](std::int64_t pixel) { labels[pixel] = sites.Find(labels[pixel]); });
   this->MergeGroups(flow, even, groups, labels, options, stages["merge"]);
   return groups;
 }
@@ -255,7 +255,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   // The mass of each group's pixels, in integer units.
   std::vector<std::int64_t> mass(static_cast<std::size_t>(groups.NumberOfGroups()), 0);
   std::int64_t heaviest = 0;
-  stages["masses"].ForEachInOrder(masses.NumberOfPixels(), grain, [&](std::int64_t pixel) {
+  stages["masses"].ForEachInOrder(masses.NumberOfPixels(), densityGrain, [&](std::int64_t pixel) {
     mass[labels[pixel]] += masses[pixel];
     heaviest = masses[pixel] > masses[heaviest] ? pixel : heaviest;
   });
@@ -312,7 +312,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
     }
   }
   groups = std::move(merged);
-  stages["labels"].ForEach(masses.NumberOfPixels(), grain,
+  stages["labels"].ForEach(masses.NumberOfPixels(), densityGrain,
     [&](std::int64_t pixel) { labels[pixel] = number[joined[labels[pixel]]]; });
 }
 

@@ -15,9 +15,9 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t none = -1;
+constexpr std::int64_t noLabel = -1;
 constexpr std::int64_t rowsOfBand = 16;
-constexpr double rounding = 1e-9; // pixels; errors of the clipping of polygons
+constexpr double clipRounding = 1e-9; // pixels; errors of the clipping of polygons
 
 // A closed interval, empty at first.
 struct Interval
@@ -82,8 +82,8 @@ private:
     const auto bounded = [count](double x) {
       return static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(count)));
     };
-    return { bounded(std::ceil(interval.Low - 0.5 - rounding)),
-      bounded(std::ceil(interval.High - 0.5 + rounding)) };
+    return { bounded(std::ceil(interval.Low - 0.5 - clipRounding)),
+      bounded(std::ceil(interval.High - 0.5 + clipRounding)) };
   }
 
   // Lists the polygons that reach into each band, ascending.
@@ -111,7 +111,7 @@ private:
   {
     const std::int64_t begin = band * rowsOfBand;
     const std::int64_t end = std::min(begin + rowsOfBand, this->Size[1]);
-    std::fill(this->Labels + begin * this->Size[0], this->Labels + end * this->Size[0], none);
+    std::fill(this->Labels + begin * this->Size[0], this->Labels + end * this->Size[0], noLabel);
     for (const std::int64_t polygon : this->Bands[static_cast<std::size_t>(band)])
     {
       const Interval extent = this->ExtentOf(polygon, 1);
@@ -142,7 +142,7 @@ private:
     {
       const Point<2>& a = this->Corners[static_cast<std::size_t>(k)];
       const Point<2>& b = this->Corners[static_cast<std::size_t>(k + 1 < last ? k + 1 : first)];
-      if (std::abs(a[1] - y) <= rounding)
+      if (std::abs(a[1] - y) <= clipRounding)
       {
         section.Add(a[0]);
       }
@@ -166,7 +166,7 @@ private:
     std::int64_t last = first == end ? 0 : *first;
     for (std::int64_t* label = labels; label != end; ++label)
     {
-      last = *label == none ? last : *label;
+      last = *label == noLabel ? last : *label;
       *label = last;
     }
   }

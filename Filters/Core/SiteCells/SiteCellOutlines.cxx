@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t none = -1; // the label outside of the domain; a node without a point
+constexpr std::int64_t noSite = -1; // the label outside of the domain; a node without a point
 
 // Visits the layers of pixels along the last axis. Only two planes of nodes store the numbers of
 // their points, so that memory grows with a layer, not with the image.
@@ -34,7 +34,7 @@ public:
       this->LayerPixels *= this->Size[a];
       nodes *= this->Size[a] + 1;
     }
-    this->Lower.assign(static_cast<std::size_t>(nodes), none);
+    this->Lower.assign(static_cast<std::size_t>(nodes), noSite);
     this->Upper = this->Lower;
   }
 
@@ -62,7 +62,7 @@ private:
     {
       if (cell[a] < 0 || cell[a] >= this->Size[a])
       {
-        return none;
+        return noSite;
       }
       pixel = pixel * this->Size[a] + cell[a];
     }
@@ -87,7 +87,7 @@ private:
     }
     // The upper plane becomes the lower one of the next layer, and its points stay shared.
     std::swap(this->Lower, this->Upper);
-    std::fill(this->Upper.begin(), this->Upper.end(), none);
+    std::fill(this->Upper.begin(), this->Upper.end(), noSite);
   }
 
   // Adds the faces across the other axes, which lie between the two planes of nodes; the last pixel
@@ -142,11 +142,11 @@ private:
     {
       std::reverse(corners, corners + Corners);
     }
-    if (below != none)
+    if (below != noSite)
     {
       this->Append(corners, below);
     }
-    if (above != none)
+    if (above != noSite)
     {
       std::reverse(corners, corners + Corners);
       this->Append(corners, above);
@@ -200,7 +200,7 @@ private:
     }
     auto& plane = node[Dimension - 1] == this->LowerPlane ? this->Lower : this->Upper;
     std::int64_t& point = plane[static_cast<std::size_t>(number)];
-    if (point == none)
+    if (point == noSite)
     {
       // A node's indices are its coordinates in index space.
       double index[Dimension];

@@ -39,7 +39,7 @@ struct CellSum
 };
 
 // Returns |d|^2, the usual cost, without a power.
-double squaredLength(const double* d)
+double squaredNorm(const double* d)
 {
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
@@ -57,7 +57,7 @@ double costOf(const double* d, const CostNorm& norm)
       std::abs(d[2]) / largest };
     if (norm.Norm == 2.0)
     {
-      length *= std::sqrt(squaredLength(part));
+      length *= std::sqrt(squaredNorm(part));
     }
     else
     {
@@ -149,7 +149,7 @@ std::vector<CellSum<Dimension>> sumCells(const ImageGrid& grid, const std::int64
         const auto add = [&](const auto& cost) {
           addPixels<Dimension>(grid, labels, sites, weightOf, cost, slice, sliceEnd, sums);
         };
-        isSquare ? add(squaredLength) : add([&norm](const double* d) { return costOf(d, norm); });
+        isSquare ? add(squaredNorm) : add([&norm](const double* d) { return costOf(d, norm); });
       }
     }
   });

@@ -25,7 +25,7 @@ namespace
 
 // Points or triangles in a range; it does not depend on the number of threads, so that sums over
 // ranges do not, either.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t wholeGrain = std::int64_t{ 1 } << 13;
 
 } // namespace
 
@@ -64,11 +64,11 @@ void AllTriangles::ScalePoints(Progress& progress)
   const std::int64_t count = this->Coordinates.size() / 3;
   double* coordinates = this->Coordinates.data();
   Eigen::AlignedBox3d bounds;
-  progress.ForEachInOrder(count, grain,
+  progress.ForEachInOrder(count, wholeGrain,
     [&](std::int64_t i) { bounds.extend(Eigen::Map<const Eigen::Vector3d>(coordinates + 3 * i)); });
   const UnitScale scale(bounds);
   this->Unit = scale.Unit();
-  progress.ForEach(count, grain, [=](std::int64_t i) {
+  progress.ForEach(count, wholeGrain, [=](std::int64_t i) {
     Eigen::Map<Eigen::Vector3d> point(coordinates + 3 * i);
     point = scale(point);
   });
@@ -84,7 +84,7 @@ void AllTriangles::LeaveOut(const IsLeftOut& isLeftOut, Progress& progress)
     std::iota(this->GivenIds.data(), this->GivenIds.data() + this->Count, std::int64_t{ 0 });
   }
   std::int64_t next = 0;
-  progress.ForEachInOrder(this->Count, grain, [&](std::int64_t triangle) {
+  progress.ForEachInOrder(this->Count, wholeGrain, [&](std::int64_t triangle) {
     if (!isLeftOut(triangle))
     {
       this->GivenIds.data()[next] = this->GivenIds.data()[triangle];
@@ -129,7 +129,7 @@ void AllTriangles::FindAreas(Progress& progress)
   this->Shares = LargeBuffer<double>(triangles);
   double* areas = this->Shares.data();
   this->Area = reduceEach(
-    progress, triangles, grain, 0.0,
+    progress, triangles, wholeGrain, 0.0,
     [&](std::int64_t triangle, double& sum) {
       const auto corner = [&](int i) {
         return Eigen::Map<const Eigen::Vector3d>(
@@ -147,7 +147,7 @@ void AllTriangles::FindAreas(Progress& progress)
       " triangles has corners at one place or on one line");
   }
   const double area = this->Area;
-  progress.ForEach(triangles, grain, [=](std::int64_t triangle) { areas[triangle] /= area; });
+  progress.ForEach(triangles, wholeGrain, [=](std::int64_t triangle) { areas[triangle] /= area; });
 }
 
 } // namespace RectifiedTransport

@@ -18,7 +18,7 @@ namespace
 {
 
 // Loops poll for cancellation after so many points or triangles.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t diskGrain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
 constexpr std::size_t fewestBoundaryPoints = 4;                // one for each corner of the square
 
@@ -129,7 +129,7 @@ void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
   std::int64_t wrong = 0;
   std::int64_t first = -1;
   Eigen::AlignedBox3d bounds;
-  progress.ForEachInOrder(count, grain, [&](std::int64_t i) {
+  progress.ForEachInOrder(count, diskGrain, [&](std::int64_t i) {
     const Eigen::Map<const Eigen::Vector3d> point(points[i]);
     if (!point.allFinite())
     {
@@ -143,7 +143,7 @@ void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
   }
   const UnitScale scale(bounds);
   this->Length = scale.Unit();
-  progress.ForEach(count, grain, [&](std::int64_t i) {
+  progress.ForEach(count, diskGrain, [&](std::int64_t i) {
     Eigen::Map<Eigen::Vector3d>(this->Coordinates.data() + 3 * i) =
       scale(Eigen::Map<const Eigen::Vector3d>(points[i]));
   });
@@ -157,7 +157,7 @@ void DiskMesh::CopyTriangles(const TriangleSurface& surface, Progress& progress)
   {
     throw NotADisk(DiskDefect::NoTriangles, 0);
   }
-  progress.ForEachInOrder(3 * surface.NumberOfTriangles, grain,
+  progress.ForEachInOrder(3 * surface.NumberOfTriangles, diskGrain,
     [&](std::int64_t corner) { this->Triangles.data()[corner] = cornerPoint(surface, corner); });
 }
 
@@ -167,7 +167,7 @@ void DiskMesh::FindAreas(Progress& progress)
   std::int64_t wrong = 0;
   std::int64_t first = -1;
   progress.ForEachInOrder(
-    this->NumberOfTriangles(), grain,
+    this->NumberOfTriangles(), diskGrain,
     [&](std::int64_t t) {
       // The sum is in the order of the triangles, whatever the number of threads.
       const auto corner = [this, t](int i) {
@@ -188,7 +188,7 @@ void DiskMesh::FindAreas(Progress& progress)
   {
     throw NotADisk(DiskDefect::TrianglesWithoutArea, wrong, first);
   }
-  progress.ForEach(this->NumberOfTriangles(), grain,
+  progress.ForEach(this->NumberOfTriangles(), diskGrain,
     [this](std::int64_t t) { this->Shares.data()[t] /= this->TotalArea; });
 }
 
@@ -199,7 +199,7 @@ void DiskMesh::RequireUsedPoints(Progress& progress) const
   std::vector<unsigned char> used(static_cast<std::size_t>(this->NumberOfPoints()), 0);
   const std::int64_t* corners = this->Triangles.data();
   progress.ForEachInOrder(
-    this->Triangles.size(), grain,
+    this->Triangles.size(), diskGrain,
     [&](std::int64_t i) { used[static_cast<std::size_t>(corners[i])] = 1; }, randomAccess);
   const auto unused = std::count(used.begin(), used.end(), 0);
   if (unused > 0)
@@ -259,7 +259,7 @@ void DiskMesh::FindBoundary(Progress& progress)
   std::vector<std::int64_t> valence(static_cast<std::size_t>(points), 0);
   Stages stages(progress, { { "starts", 1 }, { "pinched points", 2 }, { "loops", 1 } });
   stages["starts"].ForEachInOrder(
-    sides, grain,
+    sides, diskGrain,
     [&](std::int64_t side) {
       const auto point = static_cast<std::size_t>(from[side]);
       ++valence[point];

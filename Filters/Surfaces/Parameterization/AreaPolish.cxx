@@ -19,7 +19,7 @@ namespace
 // A region has at most so many points: a factorization of its Gauss-Newton matrix stays in the
 // cache, and there are enough regions for all threads.
 constexpr std::int64_t tilePoints = 5000;
-constexpr int steps = 3; // Gauss-Newton steps on a region in a sweep
+constexpr int polishSteps = 3; // Gauss-Newton steps on a region in a sweep
 // Triangles with smaller shares weigh as this one: their areas have no accuracy.
 constexpr double leastShare = 1e-13;
 
@@ -79,7 +79,7 @@ public:
     }
     LocalSystem system = this->Map.MakeSystem();
     std::vector<double> solution;
-    for (int step = 0; step < steps; ++step)
+    for (int step = 0; step < polishSteps; ++step)
     {
       this->Assemble(system);
       if (!system.Solve(solution, progress))

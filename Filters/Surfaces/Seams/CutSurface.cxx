@@ -24,7 +24,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t polled = std::int64_t{ 1 } << 14; // triangles between two polls
+constexpr std::int64_t trianglesPolled = std::int64_t{ 1 } << 14; // triangles between two polls
 
 // All defects that no repair can mend, as NotADisk or std::invalid_argument.
 void requireTriangles(const TriangleSurface& surface)
@@ -148,7 +148,7 @@ private:
     this->Unit = largestCoordinate(surface.Points);
     for (std::int64_t triangle = 0; triangle < surface.NumberOfTriangles; ++triangle)
     {
-      progress.CheckEvery(polled, triangle);
+      progress.CheckEvery(trianglesPolled, triangle);
       const std::int64_t* ids = surface.Triangles + 3 * triangle;
       const auto at = [&](int i) { return pointAt(surface.Points, ids[i]) / this->Unit; };
       // The repair leaves some triangles without area, where removing them would join edges.
@@ -196,7 +196,7 @@ private:
     for (std::size_t t = 0; t < component.Triangles.size(); ++t)
     {
       const std::int64_t kept = component.Triangles[t];
-      progress.CheckEvery(polled, static_cast<std::int64_t>(t));
+      progress.CheckEvery(trianglesPolled, static_cast<std::int64_t>(t));
       const std::int64_t repaired = this->Repaired[static_cast<std::size_t>(kept)];
       const std::int64_t given = component.Repair.GivenTriangle(repaired);
       this->Made.DisksOf.data()[given] = number;
@@ -291,7 +291,7 @@ private:
     origins.reserve(component.Triangles.size());
     for (const std::int64_t triangle : component.Triangles)
     {
-      progress.CheckEvery(polled, triangle);
+      progress.CheckEvery(trianglesPolled, triangle);
       for (std::int64_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
       {
         // The first corner at a point numbers it.

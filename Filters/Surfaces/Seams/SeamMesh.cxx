@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t polled = std::int64_t{ 1 } << 16; // sides between two polls
+constexpr std::int64_t sidesPolled = std::int64_t{ 1 } << 16; // sides between two polls
 
 } // namespace
 
@@ -119,7 +119,7 @@ SeamMesh::Cut SeamMesh::MakeCut(Progress& progress) const
     for (std::int64_t side = 0; side < this->NumberOfSides(); ++side)
     {
       visit(side);
-      progress.CheckEvery(polled, side);
+      progress.CheckEvery(sidesPolled, side);
     }
   };
   // Each inner edge that is no seam joins the corners at both of its ends, once.

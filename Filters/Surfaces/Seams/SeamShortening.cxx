@@ -6,7 +6,6 @@
 #include "Surfaces/Seams/SeamSearch.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,8 +16,6 @@ namespace
 {
 
 using Seam = std::vector<std::int64_t>; // edges in the order of the path
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Local search on the cut graph: a seam is removed, the boundary then has two loops, and a shortest
 // path between the loops takes the seam's place if it costs less. The topology stays that of a

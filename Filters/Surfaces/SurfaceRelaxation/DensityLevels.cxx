@@ -14,7 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t levelGrain = std::int64_t{ 1 } << 12;
 
 // Rounding to whole dots changes a part's share of 8 dots by up to 6 %, and that of fewer dots by
 // more.
@@ -50,7 +50,7 @@ public:
   void Run(Progress& progress)
   {
     Stages stages(progress, { { "means", 1 }, { "parts", 2 }, { "roots", 1 }, { "levels", 6 } });
-    stages["means"].ForEach(this->Count, grain, [&](std::int64_t t) {
+    stages["means"].ForEach(this->Count, levelGrain, [&](std::int64_t t) {
       this->Levels[t] = this->Density.MeanOf(t);
       this->PartOf.data()[t] = t;
     });
@@ -64,7 +64,7 @@ public:
         uniteSets(this->PartOf.data(), side / 3, other / 3);
       }
     });
-    stages["roots"].ForEachInOrder(this->Count, grain,
+    stages["roots"].ForEachInOrder(this->Count, levelGrain,
       [&](std::int64_t t) { this->PartOf.data()[t] = rootOf(this->PartOf.data(), t); });
     if (hasJumps)
     {
@@ -78,7 +78,7 @@ public:
     else
     {
       stages["levels"].ForEachInOrder(
-        this->Count, grain, [&](std::int64_t t) { this->SetLevel(t); });
+        this->Count, levelGrain, [&](std::int64_t t) { this->SetLevel(t); });
     }
   }
 
@@ -87,7 +87,7 @@ private:
   template <class Visit>
   void ForSides(Progress& progress, const Visit& visit)
   {
-    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, levelGrain, [&](std::int64_t t) {
       for (std::int64_t side = 3 * t; side < 3 * t + 3; ++side)
       {
         const std::int64_t other = this->Tracer.Across(side);
@@ -136,7 +136,7 @@ private:
   void Measure(Progress& progress)
   {
     this->Parts = { this->Count, Part{} };
-    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, levelGrain, [&](std::int64_t t) {
       // Before they become levels, Levels are the triangles' mean densities.
       Part& part = this->Parts.data()[this->PartOf.data()[t]];
       const double area = this->Tracer.Area(t);
@@ -167,7 +167,7 @@ private:
   void FindWide(Progress& progress)
   {
     this->IsWide = LargeBuffer<char>(this->Count);
-    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, levelGrain, [&](std::int64_t t) {
       if (this->PartOf.data()[t] != t)
       {
         return;
@@ -273,7 +273,7 @@ private:
   {
     LargeBuffer<double> smooth(this->Count, DensityLevels::Given);
     std::fill_n(this->SeenBy.data(), this->Count, std::int64_t{ -1 });
-    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t start) {
+    progress.ForEachInOrder(this->Count, levelGrain, [&](std::int64_t start) {
       if (this->InWide(start) || smooth.data()[start] >= 0.0)
       {
         return;
@@ -291,7 +291,7 @@ private:
         }
       }
     });
-    progress.ForEachInOrder(this->Count, grain, [&](std::int64_t t) {
+    progress.ForEachInOrder(this->Count, levelGrain, [&](std::int64_t t) {
       if (this->Levels[t] > 0.0 && smooth.data()[t] > 0.0)
       {
         this->Levels[t] = smooth.data()[t];

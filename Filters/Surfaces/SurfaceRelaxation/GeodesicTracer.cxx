@@ -22,7 +22,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t walkGrain = std::int64_t{ 1 } << 12;
 
 // Triangles lower than this part of their longest sides have no area.
 constexpr double flatHeight = 1e-12;
@@ -53,7 +53,7 @@ GeodesicTracer::GeodesicTracer(const TriangleSurface& surface, double rounding, 
       { "T-junctions", 5 }, { "sides of parts", 5 } });
   // Only points of triangles count; the others may have any coordinates.
   const PointBounds bounds = reduceEach(
-    stages["bounds"], this->Count, grain, PointBounds(),
+    stages["bounds"], this->Count, walkGrain, PointBounds(),
     [&](std::int64_t triangle, PointBounds& part) {
       for (std::int64_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
       {
@@ -85,7 +85,7 @@ GeodesicTracer::GeodesicTracer(const TriangleSurface& surface, double rounding, 
     std::ldexp(1.0, -exponent - -exponent / 2 - 1) };
   const std::int64_t points = surface.Points.size();
   this->Positions = LargeBuffer<double>(3 * points);
-  stages["positions"].ForEach(points, grain, [&](std::int64_t point) {
+  stages["positions"].ForEach(points, walkGrain, [&](std::int64_t point) {
     const Point<3> x = scales[1] * (scales[0] * (pointAt(surface.Points, point) - centre));
     std::copy(x.begin(), x.end(), this->Positions.data() + 3 * point);
   });

@@ -19,7 +19,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t startGrain = std::int64_t{ 1 } << 12;
 
 // Eight samples a dot make counts in patches a little more exact, four need less memory.
 std::int64_t samplesOfDot(std::int64_t dots)
@@ -54,7 +54,7 @@ public:
     const std::int64_t count = this->Order.size();
     LargeBuffer<std::uint32_t> keys(count);
     Stages stages(progress, { { "keys", 3 }, { "low bits", 3 }, { "high bits", 4 } });
-    stages["keys"].ForEach(count, grain, [&](std::int64_t t) {
+    stages["keys"].ForEach(count, startGrain, [&](std::int64_t t) {
       // The surface is in the box [-1/2, 1/2]^3.
       const Point<3> centre =
         (1.0 / 3.0) * (tracer.Corner(t, 0) + tracer.Corner(t, 1) + tracer.Corner(t, 2));
@@ -78,13 +78,13 @@ private:
     std::vector<std::int64_t> next(buckets + 1, 0);
     const std::int64_t count = keys.size();
     progress.Expect(2 * count);
-    progress.ForEachInOrder(count, grain, [&](std::int64_t t) { ++next[bucketOf(t) + 1]; });
+    progress.ForEachInOrder(count, startGrain, [&](std::int64_t t) { ++next[bucketOf(t) + 1]; });
     for (std::size_t bucket = 1; bucket <= buckets; ++bucket)
     {
       // Counts become the places where buckets begin.
       next[bucket] += next[bucket - 1];
     }
-    progress.ForEachInOrder(count, grain, [&](std::int64_t i) {
+    progress.ForEachInOrder(count, startGrain, [&](std::int64_t i) {
       const std::int64_t t = from ? from[i] : i;
       to[next[bucketOf(t)]++] = t;
     });
@@ -192,7 +192,7 @@ LargeBuffer<SurfacePlace> makeSamples(const GeodesicTracer& tracer, const Surfac
   // equal steps: a triangle gets its expected number of samples, rounded up or down.
   double mass = 0.0;
   firsts.data()[0] = 0;
-  stages["counts"].ForEachInOrder(triangles, grain, [&](std::int64_t i) {
+  stages["counts"].ForEachInOrder(triangles, startGrain, [&](std::int64_t i) {
     mass += density.MassOf(order[i]);
     const double before = mass / total * static_cast<double>(count) + offset;
     firsts.data()[i + 1] = std::clamp(static_cast<std::int64_t>(before), firsts.data()[i], count);
@@ -289,7 +289,7 @@ public:
     double owed = 0.5; // part of a dot that is owed to the sparse side
     std::vector<std::pair<double, std::int64_t>> byDensity(static_cast<std::size_t>(this->OfDot));
     std::vector<SurfacePlace> side;
-    progress.ForEachInOrder(dots, grain, [&](std::int64_t dot) {
+    progress.ForEachInOrder(dots, startGrain, [&](std::int64_t dot) {
       SurfacePlace* const first = this->At(dot);
       for (std::int64_t i = 0; i < this->OfDot; ++i)
       {
@@ -442,7 +442,7 @@ LargeBuffer<SurfacePlace> drawDots(const GeodesicTracer& tracer, const SurfaceDe
   }
   LargeBuffer<SurfacePlace> chosen(dots);
   stages["dots"].ForEach(
-    dots, grain, [&](std::int64_t dot) { chosen.data()[dot] = samples.data()[dot * ofDot]; });
+    dots, startGrain, [&](std::int64_t dot) { chosen.data()[dot] = samples.data()[dot * ofDot]; });
   return chosen;
 }
 

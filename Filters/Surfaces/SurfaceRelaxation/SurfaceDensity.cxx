@@ -14,7 +14,7 @@ namespace
 {
 
 // Adds the value of a triangle, or those at its three points, to a summary.
-void summarize(const TriangleSurface& surface, const SurfaceDensityValues& values,
+void addTriangle(const TriangleSurface& surface, const SurfaceDensityValues& values,
   std::int64_t triangle, DensitySummary& summary)
 {
   const auto add = [&summary](double value, std::int64_t index) {
@@ -58,7 +58,7 @@ SurfaceDensity::SurfaceDensity(
   const DensitySummary summary = reduceEach(
     progress, tracer.Given().NumberOfTriangles, grain, DensitySummary(),
     [&](std::int64_t triangle, DensitySummary& part) {
-      summarize(tracer.Given(), this->Values, triangle, part);
+      addTriangle(tracer.Given(), this->Values, triangle, part);
     },
     [](DensitySummary all, const DensitySummary& more) {
       merge(more, all);

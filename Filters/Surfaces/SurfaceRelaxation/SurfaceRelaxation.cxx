@@ -38,7 +38,7 @@ constexpr double mirrorWeight = 0.25;
 // take a smaller one.
 constexpr double mostCrowded = 1.2 * 0.5 * 3.14159265358979 * squaredDotReach;
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t relaxationGrain = std::int64_t{ 1 } << 12;
 
 // The sums over all triangles.
 struct Sum
@@ -52,7 +52,7 @@ struct Sum
 Sum measure(const GeodesicTracer& surface, const SurfaceDensity& density, Progress& progress)
 {
   return reduceEach(
-    progress, surface.NumberOfTriangles(), grain, Sum(),
+    progress, surface.NumberOfTriangles(), relaxationGrain, Sum(),
     [&](std::int64_t t, Sum& sum) {
       const double area = surface.Area(t);
       sum.Area += area;
@@ -93,7 +93,7 @@ public:
     this->Step = firstStep + part * (lastStep - firstStep);
     const bool isFirst = !this->HasSquares;
     this->HasSquares = true;
-    progress.ForEach(this->Dots.size(), grain, [&](std::int64_t i) {
+    progress.ForEach(this->Dots.size(), relaxationGrain, [&](std::int64_t i) {
       const SurfacePlace& place = this->Places.data()[i];
       const double square = this->SquaredSpacing(place);
       if (isFirst)
@@ -132,7 +132,7 @@ public:
   LargeBuffer<PlaceOnTriangle> Result(Progress& progress) const
   {
     LargeBuffer<PlaceOnTriangle> places(this->Places.size());
-    progress.ForEach(places.size(), grain, [&](std::int64_t i) {
+    progress.ForEach(places.size(), relaxationGrain, [&](std::int64_t i) {
       places.data()[i] = this->Surface.GivenPlace(this->Surface.WeightsOf(this->Places.data()[i]));
     });
     return places;

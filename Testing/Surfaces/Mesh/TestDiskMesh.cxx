@@ -3,6 +3,7 @@
 // orientation, shares of the area, the boundary in order.
 #include "SolidSurfaces.h"
 #include "Surfaces/Mesh/DiskMesh.h"
+#include "TestMesh.h"
 #include "TestRefusal.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +18,6 @@ namespace
 {
 
 using Ids = std::vector<std::int64_t>;
-
-constexpr double pi = 3.14159265358979323846;
 
 // Squares of two triangles each in the plane, `columns` by `rows`, those that `skip` tells left
 // out; their corners are id = x + y (columns + 1).

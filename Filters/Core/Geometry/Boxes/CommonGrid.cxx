@@ -19,11 +19,11 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double rounding = 1e-6;     // part of lengths and coordinates, as in single precision
-constexpr double mostRounding = 0.01; // part of a spacing; larger offsets are no rounding
+constexpr double relativeRounding = 1e-6; // part of lengths and coordinates, as in single precision
+constexpr double mostRounding = 0.01;     // part of a spacing; larger offsets are no rounding
 constexpr double directionTolerance = 1e-6; // for each element, as ITK has it by default
 constexpr double planeTolerance = 1e-6;     // part of the longest side
-constexpr const char* property = "Dimensions";
+constexpr const char* sizesProperty = "Dimensions";
 
 // The interval of the domain along an axis, in coordinates along given directions. For an axis of
 // one point Low is the coordinate of that point.
@@ -111,7 +111,7 @@ std::string axesOf(const Sides& sides)
 }
 
 // The side of the domain along an axis, in physical units.
-double lengthOf(const Side& side)
+double sideLength(const Side& side)
 {
   return std::abs(side.Spacing) * side.Cells;
 }
@@ -122,7 +122,7 @@ double longestOf(const Sides& sides)
   double longest = 0.0;
   for (const Side& side : sides)
   {
-    longest = std::max(longest, side.IsAxis ? lengthOf(side) : 0.0);
+    longest = std::max(longest, side.IsAxis ? sideLength(side) : 0.0);
   }
   return longest;
 }
@@ -173,7 +173,7 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
 double toleranceOf(double low, double high, double spacing)
 {
   const double largest = std::max({ high - low, std::abs(low), std::abs(high) });
-  return std::min(rounding * largest, mostRounding * std::abs(spacing));
+  return std::min(relativeRounding * largest, mostRounding * std::abs(spacing));
 }
 
 // Both ends and the number of cells agree, so that the spacing does, too.
@@ -214,7 +214,7 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
   {
     const Side& side = sides[axis];
     low = std::min(low, sign * side.Low);
-    high = std::max(high, sign * side.Low + lengthOf(side));
+    high = std::max(high, sign * side.Low + sideLength(side));
     finest = std::min(finest, std::abs(side.Spacing));
   }
   const double tolerance = toleranceOf(low, high, finest);
@@ -302,7 +302,7 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
   }
   if (same)
   {
-    return gridWithValues(first, dimensions, property);
+    return gridWithValues(first, dimensions, sizesProperty);
   }
 
   // Grids that differ get the box around all of them. Along axes of one point, the first grid's
@@ -341,7 +341,7 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
   // gridWithValues checks `dimensions` and may change the spacing; its result is put back on the
   // box exactly.
   Sides exact =
-    sidesOf(gridWithValues(withSides(first, sides), dimensions, property), first.Direction());
+    sidesOf(gridWithValues(withSides(first, sides), dimensions, sizesProperty), first.Direction());
   for (const Union& side : unions)
   {
     exact[side.Axis].Low = side.Sign * side.Low;

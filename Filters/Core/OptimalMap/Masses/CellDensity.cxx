@@ -17,7 +17,7 @@ namespace
 {
 
 // Cells a chunk of parallel loops.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr std::int64_t densityGrain = std::int64_t{ 1 } << 14;
 
 } // namespace
 
@@ -40,7 +40,7 @@ CellDensity<Dimension>::CellDensity(const DensitySource<Dimension>& density, Pro
   this->Shares = LargeBuffer<double>(this->Count);
   double* shares = this->Shares.data();
   const DensitySummary found = reduceChunks(
-    progress, this->Count, grain, DensitySummary(),
+    progress, this->Count, densityGrain, DensitySummary(),
     [&](std::int64_t first, std::int64_t last) {
       values->Read(first, last - first, shares + first);
       return summarize(shares + first, last - first, first);
@@ -52,7 +52,7 @@ CellDensity<Dimension>::CellDensity(const DensitySource<Dimension>& density, Pro
   requireDensity(found);
   this->Voids = !(found.Minimum > 0.0);
   const double total = found.Total;
-  progress.ForEach(this->Count, grain, [=](std::int64_t cell) { shares[cell] /= total; });
+  progress.ForEach(this->Count, densityGrain, [=](std::int64_t cell) { shares[cell] /= total; });
   // Shares below the smallest double are voids.
   this->Voids = this->Voids || found.Minimum / total == 0.0;
 }
@@ -73,7 +73,7 @@ void CellDensity<Dimension>::TakeIfSame(const CellDensity& other, Progress& prog
   double* own = this->Shares.data();
   const double* shares = other.Shares.data();
   const int areSame = reduceChunks(
-    progress, this->Count, grain, 1,
+    progress, this->Count, densityGrain, 1,
     [&](std::int64_t first, std::int64_t last) {
       const auto isSame = [](double a, double b) {
         return std::abs(a - b) <= rounding * std::max(a, b) + least;

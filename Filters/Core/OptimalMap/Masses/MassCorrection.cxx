@@ -19,8 +19,8 @@ namespace
 // steps of preconditioned conjugate gradients. A lower floor of the weight needs more steps and
 // moves what stands still over a faint background; a higher one leaves more error in thin parts.
 constexpr int steps = 2;
-constexpr int iterations = 6;
-constexpr double leastWeight = 0.3; // in units of the mean density
+constexpr int massIterations = 6;
+constexpr double leastMassWeight = 0.3; // in units of the mean density
 
 } // namespace
 
@@ -61,7 +61,7 @@ MassCorrection<Dimension>::MassCorrection(const CellDensity<Dimension>& target,
     sums.Write(excess.data(), progress,
       [&](std::int64_t node, double sum) { return sum - wanted.data()[node]; });
     poisson.SolveWeighted(
-      excess.data(), wanted.data(), leastWeight, iterations, q.data(), progress);
+      excess.data(), wanted.data(), leastMassWeight, massIterations, q.data(), progress);
     this->Moves.emplace_back(grid, q.data(), progress);
     const GradientField<Dimension>& moves = this->Moves.back();
     progress.ForEach(images.size(), std::int64_t{ 1 } << 11,

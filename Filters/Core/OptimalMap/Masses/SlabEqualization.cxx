@@ -18,10 +18,10 @@ namespace
 // Places within cells are made uniform along each axis by equalizing their histogram. A cell alone
 // has too few particles for one, so neighbours share it: a slab is one cell thick along the axis
 // and 8 cells wide across it.
-constexpr std::int64_t across = 8;  // cells
-constexpr int mostBins = 32;        // bins a slab
-constexpr std::int64_t fewest = 16; // particles a bin; bins of fewer are merged
-constexpr double inside = 0x1p-20;  // in cells: places stay at least so far from a cell's sides
+constexpr std::int64_t across = 8;        // cells
+constexpr int mostBins = 32;              // bins a slab
+constexpr std::int64_t fewestSpread = 16; // particles a bin; bins of fewer are merged
+constexpr double inside = 0x1p-20; // in cells: places stay at least so far from a cell's sides
 
 // The slabs along an axis: numbers of slabs, and the place of a particle along the axis.
 template <int Dimension>
@@ -121,7 +121,7 @@ void writeEnds(const std::int64_t* counts, int bins, double* ends)
       differences[i] = low + high > 0.0 ? (low - high) / (low + high) : 0.0;
       chiSquare += differences[i] * (low - high);
     }
-    const bool areEnough = sums[1] >= 2 * fewest * parts;
+    const bool areEnough = sums[1] >= 2 * fewestSpread * parts;
     const double kept = areEnough && chiSquare > parts ? 1.0 - parts / chiSquare : 0.0;
     // Backwards, as part i's halves take the places 2 i and 2 i + 1 in the same array.
     for (int i = parts; i-- > 0;)

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr std::int64_t readingGrain = std::int64_t{ 1 } << 14;
 constexpr unsigned char unused = 1; // flags values that are not read
 
 // A byte for each value, 1 if it is missing; empty if none can be.
@@ -24,7 +24,7 @@ std::vector<unsigned char> findMissing(
   if (reader.GetRules().Missing.Are())
   {
     missing.resize(static_cast<std::size_t>(count));
-    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(count, readingGrain, [&](std::int64_t first, std::int64_t last) {
       reader.FindEmpty(first, last - first, missing.data() + first);
     });
   }
@@ -61,7 +61,7 @@ void SetReading::Read(LargeBuffer<double> densities, Progress& progress)
   const std::int64_t count = this->NumberOfValues();
   const DensityRules& rules = this->Reader->GetRules();
   double* values = densities.data();
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  progress.For(count, readingGrain, [&](std::int64_t first, std::int64_t last) {
     this->Reader->Read(first, last - first, values + first);
   });
   // Blank values are 0 by now and pass.

@@ -18,12 +18,12 @@ namespace
 {
 
 // This bound ends rounds that do not settle.
-constexpr int mostRounds = 1000;
+constexpr int mostMassRounds = 1000;
 // Ends after this many consecutive rounds of little gain: 3 if no two groups differ by more than
 // the heaviest pixel, 10 if none differs by more from its share, and 64 in any case.
 constexpr int idleRounds = 3;
 constexpr int moreIdleRounds = 10;
-constexpr int mostIdleRounds = 64;
+constexpr int mostIdleMassRounds = 64;
 
 // Makes the masses of groups equal, as EqualizeSiteCells.cxx does with numbers of pixels. Pixels
 // have different masses and are indivisible, so that the rounds end when they gain nothing more.
@@ -58,7 +58,7 @@ public:
     Rounds rounds(stages["rounds"], 1);
     double least = 2.0 * static_cast<double>(this->Masses.Total());
     int stuck = 0;
-    for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds && stuck < 3;
+    for (int round = 0, idle = 0; round < mostMassRounds && idle < mostIdleMassRounds && stuck < 3;
          ++round, ++idle)
     {
       // A gain is a reduction of the total deviation by 1 %.

@@ -17,7 +17,7 @@ namespace
 using Numbers = std::vector<std::int64_t>;
 
 // Pixels between two polls for cancellation.
-constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 16;
+constexpr std::int64_t sliceOfShared = std::int64_t{ 1 } << 16;
 
 // Grid coordinates of pixels; a pixel in the row of the previous one needs no division.
 template <int Dimension>
@@ -114,15 +114,15 @@ private:
   template <class Visit>
   void ForPixels(const std::int64_t* pixels, std::int64_t count, const Visit& visit)
   {
-    for (std::int64_t begin = 0; begin < count; begin += sliceOfPixels)
+    for (std::int64_t begin = 0; begin < count; begin += sliceOfShared)
     {
-      const std::int64_t end = std::min(begin + sliceOfPixels, count);
+      const std::int64_t end = std::min(begin + sliceOfShared, count);
       for (std::int64_t i = begin; i < end; ++i)
       {
         visit(pixels[i], this->Place.At(pixels[i]));
       }
       this->Visited += end - begin;
-      if (this->Visited >= sliceOfPixels)
+      if (this->Visited >= sliceOfShared)
       {
         this->Visited = 0;
         this->Work.Check();
@@ -288,7 +288,7 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   // The pixels of each site cell of several sites.
   const std::int64_t cells = groups.NumberOfGroups();
   Numbers first(static_cast<std::size_t>(cells) + 1, 0);
-  stages["counts"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {
+  stages["counts"].ForEachInOrder(pixels, sliceOfShared, [&](std::int64_t pixel) {
     first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
   });
   // The buffer is as large as the largest cell that is split.
@@ -300,7 +300,7 @@ void split(const SiteGroups& groups, const GridSize<Dimension>& size,
   // A counting sort lists the pixels by groups: those of each group ascend, as bisection requires.
   LargeBuffer<std::int64_t> members(first.back());
   Numbers next(first);
-  stages["pixels"].ForEachInOrder(pixels, sliceOfPixels, [&](std::int64_t pixel) {
+  stages["pixels"].ForEachInOrder(pixels, sliceOfShared, [&](std::int64_t pixel) {
     const std::int64_t cell = owners[pixel];
     if (groups.SitesIn(cell) > 1)
     {

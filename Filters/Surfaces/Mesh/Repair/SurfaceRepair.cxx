@@ -24,8 +24,8 @@ namespace
 {
 
 // Loops poll for cancellation after so many triangles or points.
-constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
+constexpr std::int64_t repairGrain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t repairAccess = std::int64_t{ 1 } << 16; // units of a first slice
 
 // Compares along each axis, as mergeNearPoints does: no square can underflow.
 bool isSamePlace(const double* a, const double* b, double rounding)
@@ -94,7 +94,7 @@ private:
       this->MergePlaces(progress);
     }
     progress.ForEachInOrder(
-      this->Given.NumberOfTriangles, grain,
+      this->Given.NumberOfTriangles, repairGrain,
       [this](std::int64_t triangle) {
         const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
         for (int i = 0; i < 3; ++i)
@@ -102,7 +102,7 @@ private:
           this->MergeEnds(ids[i], ids[(i + 1) % 3]);
         }
       },
-      randomAccess);
+      repairAccess);
   }
 
   // By place, whether an edge joins the points or not.
@@ -145,7 +145,7 @@ private:
     this->Corners = LargeBuffer<std::int64_t>(3 * count);
     this->Origins = LargeBuffer<std::int64_t>(count);
     progress.ForEachInOrder(
-      count, grain,
+      count, repairGrain,
       [this](std::int64_t triangle) {
         const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
         // Triangles have roots as points, and the given points as corners.
@@ -158,7 +158,7 @@ private:
           this->Origins.data()[this->Count++] = triangle;
         }
       },
-      randomAccess);
+      repairAccess);
   }
 
   // If triangles have the same points, the first one stays.
@@ -372,7 +372,7 @@ bool needsRepair(const TriangleSurface& surface, double rounding, const Context&
   LargeBuffer<unsigned char> isUsed(surface.Points.size(), 0);
   bool isFlat = false;
   progress.ForInOrder(
-    surface.NumberOfTriangles, grain,
+    surface.NumberOfTriangles, repairGrain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t triangle = first; triangle < last && !isFlat; ++triangle)
       {
@@ -384,7 +384,7 @@ bool needsRepair(const TriangleSurface& surface, double rounding, const Context&
         isFlat = shapeOf(surface, scale, triangle).Height <= scale * rounding;
       }
     },
-    randomAccess);
+    repairAccess);
   return isFlat ||
     std::find(isUsed.data(), isUsed.data() + isUsed.size(), 0) != isUsed.data() + isUsed.size();
 }
