@@ -7,4 +7,7 @@ function (rectified_transport_warnings target)
   target_compile_options("${target}" PRIVATE
     "$<$<COMPILE_LANGUAGE:CXX>:${flags}>"
     "$<$<COMPILE_LANG_AND_ID:CXX,Clang,AppleClang,IntelLLVM>:-Wno-sign-conversion>")
+  if (RectifiedTransport_UNITY_BUILD)
+    rectified_transport_unity("${target}")
+  endif ()
 endfunction ()
