@@ -12,7 +12,7 @@ namespace
 {
 
 // Names the arrays in messages about too little memory.
-constexpr const char* what = "the tables";
+constexpr const char* tablesText = "the tables";
 
 // At least one number, as OpenCL has no empty buffers.
 std::size_t bytesOf(std::int64_t doubles)
@@ -37,7 +37,7 @@ DeviceBuffer uploadOccupied(Device& device, const TableView<Dimension>& tables)
   {
     words *= tables.Cells[axis];
   }
-  return upload(device, tables.Occupied, words, what);
+  return upload(device, tables.Occupied, words, tablesText);
 }
 
 // Where the coarse levels begin: after the finest one, in the same array.
@@ -66,8 +66,8 @@ DeviceTables<Dimension>::DeviceTables(Device& device, const TableView<Dimension>
 {
   const double* fine = tables.Levels[0].Nodes;
   const double* coarse = coarseNodes<Dimension>(tables);
-  this->Fine = upload(device, fine, coarse - fine, what);
-  this->Coarse = upload(device, coarse, endOfNodes<Dimension>(tables) - coarse, what);
+  this->Fine = upload(device, fine, coarse - fine, tablesText);
+  this->Coarse = upload(device, coarse, endOfNodes<Dimension>(tables) - coarse, tablesText);
   this->Occupied = uploadOccupied<Dimension>(device, tables);
 }
 
@@ -78,8 +78,8 @@ DeviceTables<Dimension>::DeviceTables(Device& device, const DeviceProgram& progr
   const TableView<Dimension>& tables, const DeviceBuffer& values)
 {
   const double* coarse = coarseNodes<Dimension>(tables);
-  this->Fine = device.Allocate(bytesOf(coarse - tables.Levels[0].Nodes), what);
-  this->Coarse = device.Allocate(bytesOf(endOfNodes<Dimension>(tables) - coarse), what);
+  this->Fine = device.Allocate(bytesOf(coarse - tables.Levels[0].Nodes), tablesText);
+  this->Coarse = device.Allocate(bytesOf(endOfNodes<Dimension>(tables) - coarse), tablesText);
   this->Occupied = uploadOccupied<Dimension>(device, tables);
   this->Sum(device, program, tables, values);
 }
@@ -109,7 +109,7 @@ void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
   {
     // In 2D: the sums of each strip of each row, their prefix along the row, the rows with both
     // moments, then columns.
-    const DeviceBuffer sums = device.Allocate(rows * strips * 2 * sizeof(double), what);
+    const DeviceBuffer sums = device.Allocate(rows * strips * 2 * sizeof(double), tablesText);
     run("sumStrips", { rows, strips, 1 }, values, sums);
     run("sumBefore", { rows, 1, 1 }, sums);
     run("sumRows", { rows, strips, 1 }, values, sums, this->Fine);
@@ -121,7 +121,7 @@ void DeviceTables<Dimension>::Sum(Device& device, const DeviceProgram& program,
     // In 3D: the same with four sums a column of a strip (mass and three moments), then along axis
     // 2.
     const DeviceBuffer before =
-      device.Allocate(slices * strips * columns * 4 * sizeof(double), what);
+      device.Allocate(slices * strips * columns * 4 * sizeof(double), tablesText);
     run("sumStrips", { columns, strips, slices }, values, before);
     run("sumAlong", { slices, strips, 1 }, before);
     run("sumBefore", { columns, slices, 1 }, before);
