@@ -213,7 +213,7 @@ build_release()
   need_for_window
   configure_and_build "$build" -DCMAKE_BUILD_TYPE=Release "${anew_for_window[@]}" \
     -DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=ON -DRectifiedTransport_BUILD_EXAMPLES=ON \
-    -DRectifiedTransport_UNITY_BUILD=ON -DCMAKE_COMPILE_WARNING_AS_ERROR="$warnings" "$@"
+    -DCMAKE_COMPILE_WARNING_AS_ERROR="$warnings" "$@"
 }
 
 # Runs a command on a virtual display: the same pictures with and without a screen.
