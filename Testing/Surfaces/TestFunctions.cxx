@@ -144,28 +144,23 @@ TEST(SurfaceFunctions, SolidHasItsVolume)
 TEST(SurfaceFunctions, Refusals)
 {
   Mesh box = makeBox({ 0, 0, 0 }, { 1, 1, 1 });
-  EXPECT_EQ(
-    refusal([&]() { solid(box.Surface(), 0); }), "Resolution is 0; it must be from 1 to 16384");
-  EXPECT_NE(
-    refusal([&]() { solid(box.Surface(), 8, { -1.0 }); }).find("Padding is -1"), std::string::npos);
-  EXPECT_EQ(refusal([&]() {
-    solid(box.Surface(), 8, { 0.0, 0 });
-  }),
-    "Supersampling is 0; it must be 1 or more");
-  EXPECT_NE(refusal([&]() { solid(makeProjectivePlane(0).Surface(), 8); }).find("one side only"),
-    std::string::npos);
-  box.Triangles.pop_back();
-  EXPECT_NE(refusal([&]() { solid(box.Surface(), 8); }).find("the surface has 3 open edges"),
-    std::string::npos)
-    << refusal([&]() { solid(box.Surface(), 8); });
-  box.Points[0][1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusal([&]() { solid(box.Surface(), 8); }), "point 0 is not finite");
-  EXPECT_THROW(parameterize(box.Surface()), NotADisk);
-  EXPECT_EQ(refusal([&]() {
-    solid({ box.Points, nullptr, 0 }, 8);
-  }),
-    "the surface has no triangles");
+  const auto expect = [&box](const char* text, int resolution, const SolidOptions& options = {}) {
+    const std::string found = refusal([&]() { solid(box.Surface(), resolution, options); });
+    EXPECT_NE(found.find(text), std::string::npos) << found;
+  };
+  expect("Resolution is 0; it must be from 1 to", 0);
+  expect("Padding is -1", 8, { -1.0 });
+  expect("Supersampling is 0; it must be 1 or more", 8, { 0.0, 0 });
   EXPECT_NE(refusal([&]() { sample(box.Surface(), -1); }), "");
+  box.Triangles.pop_back();
+  expect("the surface is not closed: it has 3 open edges", 8);
+  box = makeProjectivePlane(0);
+  expect("the surface has one side only", 8);
+  box.Points[0][1] = std::numeric_limits<double>::quiet_NaN();
+  expect("point 0 is not finite", 8);
+  EXPECT_THROW(parameterize(box.Surface()), NotADisk);
+  box = {};
+  expect("the surface has no triangles", 8);
 }
 
 } // namespace
