@@ -3,11 +3,11 @@
 
 # The mathematics comes first: with it where this project is built, here where VTK builds the modules.
 get_filename_component(filters "${CMAKE_CURRENT_LIST_DIR}/../Filters" ABSOLUTE)
-foreach (library IN ITEMS Core Surfaces Devices)
-  if (NOT TARGET RectifiedTransport${library})
+if (NOT TARGET RectifiedTransportCore)
+  foreach (library IN ITEMS Core Surfaces Devices)
     add_subdirectory("${filters}/${library}" "${CMAKE_CURRENT_BINARY_DIR}/${library}")
-  endif ()
-endforeach ()
+  endforeach ()
+endif ()
 
 # rectified_transport_module(LIBRARY CLASSES CLASS... BRIDGE SOURCE...): the module of the current folder,
 # with sources of Filters/Bridge, on a library of the mathematics.

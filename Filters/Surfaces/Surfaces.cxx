@@ -134,16 +134,7 @@ SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOpti
   std::copy_n(surface.Points.data(), corners, coordinates.data());
   ClosedMesh mesh(std::move(coordinates), stages["points"]);
   // The points are doubles: distances for coordinates rounded to float are not tried.
-  const std::string problem = mesh.Close(
-    [&](ClosedMesh& faces, Progress&) {
-      faces.Reserve(surface.NumberOfTriangles);
-      for (std::int64_t corner = 0; corner < 3 * surface.NumberOfTriangles; corner += 3)
-      {
-        faces.Add({ surface.Triangles[corner], surface.Triangles[corner + 1],
-          surface.Triangles[corner + 2] });
-      }
-    },
-    ClosingDistances(bounds, false), stages["edges"]);
+  const std::string problem = mesh.Close(surface, ClosingDistances(bounds, false), stages["edges"]);
   if (!problem.empty())
   {
     throw std::invalid_argument("the surface " + problem);

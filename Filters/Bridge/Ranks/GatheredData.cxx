@@ -6,7 +6,6 @@
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/TruncatedArrays.h"
-#include "Bridge/Run/Memory.h"
 #include "Bridge/Run/SampledFingerprint.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
@@ -26,7 +25,6 @@
 #include "vtkStaticPointLocator.h"
 #include "vtkStructuredGrid.h"
 #include "vtkStructuredGridAppend.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -330,11 +328,10 @@ vtkSmartPointer<vtkPointSet> countedPart(vtkPointSet* own, PointSetKind kind, co
 // get flags of 0, so that what is hidden stays hidden.
 void addGhostFlags(std::vector<DataPart>& parts)
 {
-  const char* name = vtkDataSetAttributes::GhostArrayName();
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     const auto lacksFlags = [&](const DataPart& part) {
-      return !part.Data->GetAttributes(owner)->HasArray(name);
+      return !part.Data->GetAttributes(owner)->HasArray(vtkDataSetAttributes::GhostArrayName());
     };
     if (std::all_of(parts.begin(), parts.end(), lacksFlags))
     {
@@ -347,9 +344,8 @@ void addGhostFlags(std::vector<DataPart>& parts)
         // The rank's own data are the filter's input, which stays as it is.
         const auto copy = vtkSmartPointer<vtkDataSet>::Take(part.Data->NewInstance());
         copy->ShallowCopy(part.Data);
-        auto flags = newArray<vtkUnsignedCharArray>(name, 1, copy->GetNumberOfElements(owner));
-        flags->Fill(0.0);
-        copy->GetAttributes(owner)->AddArray(flags);
+        owner == vtkDataObject::POINT ? copy->AllocatePointGhostArray()
+                                      : copy->AllocateCellGhostArray();
         part.Data = copy;
       }
     }

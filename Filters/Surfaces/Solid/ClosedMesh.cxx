@@ -60,6 +60,11 @@ void addTriangles(const TriangleSurface& surface, Progress& progress, ClosedMesh
     slow);
 }
 
+ClosedMesh::AddFaces facesOf(const TriangleSurface& surface)
+{
+  return [&surface](ClosedMesh& mesh, Progress& part) { addTriangles(surface, part, mesh); };
+}
+
 // The largest coordinate, without its sign.
 double farthestIn(const std::array<double, 6>& bounds)
 {
@@ -121,8 +126,7 @@ ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
     { { "points", 10 }, { "equal points", 30 }, { "triangles", 30 }, { "near points", 30 } });
   copyPoints(surface.Points, this->Coordinates.data(), stages["points"]);
   this->Merge(stages["equal points"]);
-  const AddFaces add = [&surface](
-                         ClosedMesh& mesh, Progress& part) { addTriangles(surface, part, mesh); };
+  const AddFaces add = facesOf(surface);
   this->Fill(add, stages["triangles"]);
   if (!this->Closed)
   {
@@ -174,6 +178,12 @@ std::string ClosedMesh::Close(
     this->ClosedGaps = this->CloseWithin(distances.Gaps[i], gaps[static_cast<std::int64_t>(i)]);
   }
   return this->ClosedGaps ? std::string() : problem;
+}
+
+std::string ClosedMesh::Close(
+  const TriangleSurface& surface, const ClosingDistances& distances, const Context& context)
+{
+  return this->Close(facesOf(surface), distances, context);
 }
 
 // Adds the faces and counts edges. Returns what is wrong, as the predicate of a sentence; empty if

@@ -68,6 +68,10 @@ public:
   // predicate of a sentence, else an empty text.
   std::string Close(
     const AddFaces& add, const ClosingDistances& distances, const Context& context = Context());
+  // The same with the triangles of a surface whose points the mesh has. Throws
+  // std::invalid_argument for triangles with points that do not exist.
+  std::string Close(const TriangleSurface& surface, const ClosingDistances& distances,
+    const Context& context = Context());
   // Whether it was closed at T-junctions that gape by more than rounding.
   bool HadGaps() const { return this->ClosedGaps; }
 
