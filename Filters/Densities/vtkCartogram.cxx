@@ -154,8 +154,7 @@ int vtkCartogram::RequestData(
     // VTK has passed on the map's, which an earlier cartogram may have made.
     vtkDataObject::GetData(outputVector, 2)->GetFieldData()->Initialize();
   }
-  this->WarnOnFirstRank(worker.Run(blocks, vtkCompositeDataSet::SafeDownCast(input) != nullptr,
-    this->Internals->Cache, stages["cartogram"], outputs));
+  this->WarnOnFirstRank(worker.Run(blocks, this->Internals->Cache, stages["cartogram"], outputs));
   return 1;
 }
 

@@ -12,6 +12,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -21,6 +22,7 @@
 #include "vtkInformationStringKey.h"
 #include "vtkMatrix3x3.h"
 #include "vtkOverlappingAMR.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
@@ -29,6 +31,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace RectifiedTransport::Bridge
 {
@@ -105,11 +108,28 @@ std::vector<Leaf> leavesOf(vtkCompositeDataSet* data)
 {
   std::vector<Leaf> leaves;
   const auto at = vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
+  if (auto* nodes = vtkDataObjectTreeIterator::SafeDownCast(at))
+  {
+    nodes->VisitOnlyLeavesOff();
+  }
+  // The pieces of a partitioned data set have the indices after its own.
+  std::int64_t whole = 0;
+  std::int64_t lastPiece =
+    vtkPartitionedDataSet::SafeDownCast(data) ? std::numeric_limits<std::int64_t>::max() : -1;
   for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
   {
+    vtkDataObject* const object = at->GetCurrentDataObject();
+    const std::int64_t index = at->GetCurrentFlatIndex();
+    if (vtkDataObjectTree::SafeDownCast(object))
+    {
+      auto* const pieces = vtkPartitionedDataSet::SafeDownCast(object);
+      whole = pieces ? index : whole;
+      lastPiece = pieces ? index + pieces->GetNumberOfPartitions() : lastPiece;
+      continue;
+    }
     vtkInformation* about = at->HasCurrentMetaData() ? at->GetCurrentMetaData() : nullptr;
     const char* name = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
-    leaves.push_back({ at->GetCurrentDataObject(), at->GetCurrentFlatIndex(), name ? name : "" });
+    leaves.push_back({ object, index, name ? name : "", index <= lastPiece ? whole : index });
   }
   return leaves;
 }
@@ -144,36 +164,30 @@ std::vector<DensityBlock> densityBlocks(
   // Every block gets the time of the whole object: blocks may be new objects in each run, as
   // those of AMR grids and hyper tree grids are, whose own times say nothing about the input.
   const std::uint64_t time = timeOf(data);
-  const auto add = [&](vtkDataObject* object, const std::string& name, std::int64_t number) {
-    vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(object);
-    // A vtkHyperTreeGrid is no vtkDataSet, so its leaves become an unstructured grid that is.
-    if (auto* trees = vtkHyperTreeGrid::SafeDownCast(object))
-    {
-      set = cellsOfTrees(trees, progress);
-    }
-    if (object && !set)
-    {
-      left.Add(object, name);
-    }
-    left.DataSets += set ? 1 : 0;
-    // Data sets without points are usual on ranks that have nothing of a block.
-    if (set && set->GetNumberOfPoints() > 0)
-    {
-      blocks.push_back({ set, name, number, time });
-    }
-  };
   // All ranks take part, as this is collective: those whose data are no AMR, or have none, give
   // nullptr.
   const vtkSmartPointer<vtkCompositeDataSet> grids =
     markRefinedCells(vtkOverlappingAMR::SafeDownCast(data), ranks);
   auto* composite = grids ? grids.Get() : vtkCompositeDataSet::SafeDownCast(data);
-  if (!composite)
+  for (const Leaf& leaf : composite ? leavesOf(composite) : std::vector<Leaf>{ { data, 0, "", 0 } })
   {
-    add(data, "input", 0);
-  }
-  for (const Leaf& leaf : composite ? leavesOf(composite) : std::vector<Leaf>())
-  {
-    add(leaf.Data, leaf.Text(), leaf.Number);
+    const std::string name = composite ? leaf.Text() : "input";
+    vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(leaf.Data);
+    // A vtkHyperTreeGrid is no vtkDataSet, so its leaves become an unstructured grid that is.
+    if (auto* trees = vtkHyperTreeGrid::SafeDownCast(leaf.Data))
+    {
+      set = cellsOfTrees(trees, progress);
+    }
+    if (leaf.Data && !set)
+    {
+      left.Add(leaf.Data, name);
+    }
+    left.DataSets += set ? 1 : 0;
+    // Data sets without points are usual on ranks that have nothing of a block.
+    if (set && set->GetNumberOfPoints() > 0)
+    {
+      blocks.push_back({ set, name, leaf.Number, time, nullptr, leaf.Whole });
+    }
   }
   if (skipped)
   {

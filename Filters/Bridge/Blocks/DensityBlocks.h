@@ -38,6 +38,8 @@ struct DensityBlock
   std::uint64_t Time;  // the modification time of the data object that holds the block
   // The density; set by those who know its name, none: no mass.
   vtkSmartPointer<vtkDataArray> Array = nullptr;
+  // That of the data set of which it is a piece, or its own.
+  std::int64_t Whole = Number;
 };
 
 // Blocks whose arrays have one name and association. At least one block has an array; those without
@@ -55,6 +57,7 @@ struct Leaf
   vtkDataObject* Data;
   std::int64_t Number; // its flat index
   std::string Name;
+  std::int64_t Whole; // that of the partitioned data set of which it is a piece, or its own
 
   // "block 3 ('name') of the input".
   std::string Text() const;

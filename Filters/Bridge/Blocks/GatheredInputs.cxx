@@ -16,6 +16,7 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkPointSet.h"
 
 #include <utility>
@@ -40,14 +41,15 @@ DataIdentity contentOf(const std::vector<DensityBlock>& blocks)
   return content;
 }
 
-// The blocks in the order of their numbers, as gatherDataParts expects them. The data are shared,
-// not copied.
-std::vector<DataPart> partsOf(const std::vector<DensityBlock>& blocks)
+// The blocks in the order of their numbers, or of those of their wholes, as gatherDataParts expects
+// them. The data are shared, not copied.
+std::vector<DataPart> partsOf(
+  const std::vector<DensityBlock>& blocks, std::int64_t DensityBlock::*number)
 {
   std::vector<DataPart> parts;
   for (const DensityBlock& block : blocks)
   {
-    parts.push_back({ block.Number, block.Name, block.Data });
+    parts.push_back({ block.*number, block.Name, block.Data });
   }
   return parts;
 }
@@ -60,12 +62,13 @@ vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks
   return pieces.Gather(ranks.Own() == 0 ? pieces.Whole() : none);
 }
 
-// Gathers data sets as blocks of one. If every rank has all parts already, its own data are
-// returned.
+// Gathers data sets as blocks of one; the parts that ranks have of one data set stay its pieces. If
+// every rank has all parts already, its own data are returned.
 vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ranks)
 {
   const GatheredParts gathered =
-    gatherDataParts(partsOf(densityBlocks(own, nullptr, nullptr, ranks)), ranks, Receivers::First);
+    gatherDataParts(partsOf(densityBlocks(own, nullptr, nullptr, ranks), &DensityBlock::Whole),
+      ranks, Receivers::First);
   if (gathered.AreWhole)
   {
     return own;
@@ -75,9 +78,17 @@ vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ran
     return gathered.Parts.front().Data;
   }
   const auto all = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  vtkSmartPointer<vtkPartitionedDataSet> pieces;
+  std::int64_t last = -1;
   for (const DataPart& part : gathered.Parts)
   {
-    all->SetBlock(all->GetNumberOfBlocks(), part.Data);
+    if (part.Number != last)
+    {
+      pieces = vtkSmartPointer<vtkPartitionedDataSet>::New();
+      all->SetBlock(all->GetNumberOfBlocks(), pieces);
+      last = part.Number;
+    }
+    pieces->SetPartition(pieces->GetNumberOfPartitions(), part.Data);
   }
   return all;
 }
@@ -120,7 +131,8 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
   *this = GatheredBlocks();
   // Gathered data sets stay until a block of some rank changes, so that their own times identify
   // them.
-  for (const DataPart& part : gatherDataParts(partsOf(own), ranks, Receivers::All).Parts)
+  for (const DataPart& part :
+    gatherDataParts(partsOf(own, &DensityBlock::Number), ranks, Receivers::All).Parts)
   {
     const auto time = static_cast<std::uint64_t>(part.Data->GetMTime());
     this->Blocks.push_back({ part.Data, part.Name, part.Number, time });

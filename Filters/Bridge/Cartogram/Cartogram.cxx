@@ -423,11 +423,11 @@ private:
 } // namespace
 
 std::vector<std::string> CartogramWorker::Run(const std::vector<DensityBlock>& blocks,
-  bool isComposite, MapCache& cache, Progress& progress, const CartogramOutputs& outputs) const
+  MapCache& cache, Progress& progress, const CartogramOutputs& outputs) const
 {
   Stages stages(progress, { { "regions", 2 }, { "cartogram", 98 } });
   // The job has the state of this run alone; only the cache outlives it.
-  RegionCells cells = readRegions(blocks, isComposite, this->Arrays, stages["regions"]);
+  RegionCells cells = readRegions(blocks, this->Arrays, stages["regions"]);
   return CartogramJob(*this, std::move(cells), cache, outputs).Run(stages["cartogram"]);
 }
 

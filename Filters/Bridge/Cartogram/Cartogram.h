@@ -48,8 +48,8 @@ struct CartogramWorker
   double Blend;
 
   // Returns warnings. Throws Failure, InvalidDensity and Cancelled.
-  std::vector<std::string> Run(const std::vector<DensityBlock>& blocks, bool isComposite,
-    MapCache& cache, Progress& progress, const CartogramOutputs& outputs) const;
+  std::vector<std::string> Run(const std::vector<DensityBlock>& blocks, MapCache& cache,
+    Progress& progress, const CartogramOutputs& outputs) const;
 };
 
 } // namespace RectifiedTransport::Bridge

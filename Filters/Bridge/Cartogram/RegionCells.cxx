@@ -63,8 +63,8 @@ bool isClosed(vtkPolyData* data, vtkIdList* line)
 class RegionReading
 {
 public:
-  RegionReading(const std::vector<DensityBlock>& blocks, bool isComposite,
-    const RegionArrays& arrays, Progress& progress)
+  RegionReading(
+    const std::vector<DensityBlock>& blocks, const RegionArrays& arrays, Progress& progress)
     : Blocks(blocks)
     , Arrays(arrays)
     , Work(progress, { { "blocks", 3 }, { "regions", 1 } })
@@ -73,7 +73,8 @@ public:
     // it.
     this->Joined = joinRegionBlocks(blocks, this->Work["blocks"]);
     this->Found.Data = this->Joined.Data;
-    this->ByBlock = isComposite && blocks.size() > 1;
+    this->ByBlock = std::any_of(blocks.begin(), blocks.end(),
+      [&](const DensityBlock& block) { return block.Whole != blocks.front().Whole; });
     vtkCellData* cells = this->Found.Data->GetCellData();
     this->Key = this->HasKey() ? cells->GetAbstractArray(arrays.Region.c_str()) : nullptr;
     this->Name = this->Key ? this->Key : FindNames(cells);
@@ -251,7 +252,8 @@ private:
       }
       else
       {
-        key = std::to_string(this->ByBlock ? static_cast<vtkIdType>(block) : cell);
+        key = std::to_string(
+          this->ByBlock ? this->Blocks[block].Whole : static_cast<std::int64_t>(cell));
       }
       this->Found.Regions[static_cast<std::size_t>(cell)] =
         regions.Add(key, this->Mass->GetComponent(cell, 0), [&]() {
@@ -303,10 +305,10 @@ private:
 
 } // namespace
 
-RegionCells readRegions(const std::vector<DensityBlock>& blocks, bool isComposite,
-  const RegionArrays& arrays, Progress& progress)
+RegionCells readRegions(
+  const std::vector<DensityBlock>& blocks, const RegionArrays& arrays, Progress& progress)
 {
-  return RegionReading(blocks, isComposite, arrays, progress).Read();
+  return RegionReading(blocks, arrays, progress).Read();
 }
 
 } // namespace RectifiedTransport::Bridge

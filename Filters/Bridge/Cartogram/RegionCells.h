@@ -39,13 +39,13 @@ struct RegionCells
   std::string OpenLines;             // a warning, if there are some
 };
 
-// Blocks are those of the input, `isComposite` if it is a composite. Without a chosen mass array it
-// is the cells' active scalars, else their only numeric array. Cells with one value of the region
-// array are one region; without one those of a block, if there are several, else each cell. Throws
-// Failure as joinRegionBlocks, and for no regions, no or bad masses, and masses that differ in a
-// region; and Cancelled.
-RegionCells readRegions(const std::vector<DensityBlock>& blocks, bool isComposite,
-  const RegionArrays& arrays, Progress& progress);
+// Blocks are those of the input. Without a chosen mass array it is the cells' active scalars, else
+// their only numeric array. Cells with one value of the region array are one region; without one
+// those of a block, with all its pieces, if there are several, else each cell. Throws Failure as
+// joinRegionBlocks, and for no regions, no or bad masses, and masses that differ in a region; and
+// Cancelled.
+RegionCells readRegions(
+  const std::vector<DensityBlock>& blocks, const RegionArrays& arrays, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 simple = load_plugin()
 from rectifiedtransport import vtkCartogram  # noqa: E402
-from rt_maps import (blocks_of, cartogram, cell_values, line_of, map_of, rectangle, ring_areas,  # noqa: E402
+from rt_maps import (blocks_of, cartogram, cell_values, line_of, map_of, pieces_of, rectangle, ring_areas,  # noqa: E402
                      sixteen, square)
 
 STATES = os.path.join(SOURCE, "Testing", "Data", "us-states.geojson")
@@ -75,6 +75,19 @@ class TestCartogram(unittest.TestCase):
                  map_of(rings[3:], [2.0, 2.0], lines=True)]
         b = ring_areas(cartogram(blocks_of(*parts))[0].GetRegions())
         np.testing.assert_allclose(b, a, rtol=1e-9)
+
+    def test_pieces_of_a_data_set(self):
+        """A partitioned data set is one, whose cells are regions; in blocks, it is one region."""
+        halves = [map_of([rectangle(i % 4, i // 4, i % 4 + 1, i // 4 + 1) for i in numbers],
+                         [20.0 if i == 5 else 1.0 for i in numbers]) for numbers in (range(8), range(8, 16))]
+        expected = ring_areas(cartogram(sixteen())[0].GetRegions())
+        np.testing.assert_allclose(ring_areas(cartogram(pieces_of(*halves))[0].GetRegions()), expected,
+                                   rtol=1e-9)
+        west, middle, east = (map_of([rectangle(x, 0, x + 1, 4)], [mass])
+                              for x, mass in ((0, 2.0), (1, 2.0), (2, 1.0)))
+        regions = cartogram(blocks_of(pieces_of(west, middle), east))[0].GetRegions()
+        areas = ring_areas(regions)
+        self.check_shares(np.array([areas[0] + areas[1], areas[2]]), [2.0, 1.0])
 
     def test_strips(self):
         """A strip is one region, after the polygons, with its first triangle's direction."""

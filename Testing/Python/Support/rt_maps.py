@@ -5,7 +5,8 @@ from rectifiedtransport import vtkCartogram
 from rt_testing import Listener, positions
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+                                           vtkPolyData)
 
 
 def square(low, high):
@@ -52,6 +53,13 @@ def blocks_of(*parts):
     for i, part in enumerate(parts):
         blocks.SetBlock(i, part)
     return blocks
+
+
+def pieces_of(*parts):
+    whole = vtkPartitionedDataSet()
+    for i, part in enumerate(parts):
+        whole.SetPartition(i, part)
+    return whole
 
 
 def ring_areas(data):
