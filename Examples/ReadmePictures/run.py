@@ -47,7 +47,7 @@ def draw_row(path, parts, size, radius, pixels, stipple):
 
 
 def draw_patterns(path, stipple):
-    patterns = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
+    patterns = simple.UniformSeeds().GetProperty("Pattern").Available
     draw_row(path, [simple.UniformSeeds(Pattern=pattern, NumberOfPoints=900)
                     for pattern in patterns], [1, 1], 0.007, 1100, stipple)
 

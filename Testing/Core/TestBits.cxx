@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bits of what Core computes.
+#include "../SeedPatterns.h"
 #include "AreaErrors.h"
 #include "Core/Equalize/EqualizeAreas.h"
 #include "Core/Flow/MapDerivatives.h"
@@ -160,8 +161,7 @@ TEST(Bits, Flow)
 
 TEST(Bits, Seeds)
 {
-  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
-         SeedPattern::LowDiscrepancy, SeedPattern::Random })
+  for (const SeedPattern pattern : scatteredPatterns)
   {
     constexpr std::int64_t count = 1500;
     Digest digest;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The progress that long work reports, and its cancellation.
+#include "../../SeedPatterns.h"
 #include "Core/Seeds/Seeds.h"
 #include "TestFlow.h"
 
@@ -153,8 +154,7 @@ TEST(Context, ProgressAndCancelOfTheSeeds)
   constexpr std::int64_t count = 300000;
   Points<3> points(count);
   const Point<3> lengths = { 1.0, 2.0, 3.0 };
-  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
-         SeedPattern::LowDiscrepancy, SeedPattern::Random })
+  for (const SeedPattern pattern : scatteredPatterns)
   {
     for (const double limit : { 0.0, 2.0 })
     {

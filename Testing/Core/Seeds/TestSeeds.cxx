@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What all seed patterns promise, and lattices. Spacing is in TestSeedsBlueNoise.cxx.
 #include "TestSeeds.h"
+#include "../../SeedPatterns.h"
 #include "TestRefusal.h"
 
 #include <cmath>
@@ -12,9 +13,6 @@ namespace RectifiedTransport
 {
 namespace
 {
-
-constexpr SeedPattern scatteredPatterns[] = { SeedPattern::BlueNoise, SeedPattern::Jittered,
-  SeedPattern::LowDiscrepancy, SeedPattern::Random };
 
 template <int Dimension>
 std::vector<Point<Dimension>> boxes();

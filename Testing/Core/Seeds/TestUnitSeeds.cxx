@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each pattern by one class: the count, then the points of the pattern's own function.
+#include "../../SeedPatterns.h"
 #include "Core/Seeds/SeedShare.h"
 #include "Core/Seeds/UnitSeeds.h"
 #include "TestRefusal.h"
@@ -23,8 +24,7 @@ std::vector<double> generate(const UnitSeeds<Dimension>& seeds)
 template <int Dimension>
 void expectPatterns(const Point<Dimension>& lengths, const GridSize<Dimension>& grid)
 {
-  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
-         SeedPattern::LowDiscrepancy, SeedPattern::Random })
+  for (const SeedPattern pattern : scatteredPatterns)
   {
     const UnitSeeds<Dimension> scattered(pattern, lengths, 1000, 5);
     EXPECT_EQ(scattered.Count(), 1000.0);
@@ -78,8 +78,7 @@ void expectParts(const UnitSeeds<Dimension>& seeds)
 template <int Dimension>
 void expectPartsOfPatterns(const Point<Dimension>& lengths, const GridSize<Dimension>& grid)
 {
-  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
-         SeedPattern::LowDiscrepancy, SeedPattern::Random, SeedPattern::Lattice })
+  for (const SeedPattern pattern : seedPatterns)
   {
     for (const std::int64_t count : { 1, 5, 1000, 2600 })
     {

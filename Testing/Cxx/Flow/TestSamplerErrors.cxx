@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is wrong is reported in one error that names the array or property, the value and what would
 // be right; the output is then empty, and the next run may succeed.
+#include "../../SeedPatterns.h"
 #include "TestData.h"
 
 #include "vtkFloatArray.h"
@@ -45,7 +46,7 @@ void checkProperties(Checks& checks)
   s->SetFlowTime(std::nextafter(1.0, 2.0));
   test.Expect({ "FlowTime is 1.0000000000000002;" }, __LINE__);
   s->SetFlowTime(1.0);
-  s->SetSeedPattern(5);
+  s->SetSeedPattern(RectifiedTransport::numberOfSeedPatterns);
   test.Expect({ "SeedPattern is 5", "0 (BlueNoise)", "4 (Random)" }, __LINE__);
   s->SetSeedPattern(0);
   s->SetSamplesPerCell(-1);

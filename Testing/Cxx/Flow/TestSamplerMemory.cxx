@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory that cannot be had: an error that says how much was asked for, and nothing is lost.
 #include "../../MemoryLimit.h"
+#include "../../SeedPatterns.h"
 #include "TestData.h"
 
 #include "vtkUniformSeedSource.h"
@@ -34,7 +35,7 @@ void checkAbsurdNumbers(Checks& checks)
   sampler->SetInputData(makeImage(12, 9, 5, true, bumpy));
   test.Expect(": 104 TB were asked for", __LINE__);
   sampler->SetInputData(image);
-  for (int pattern = 0; pattern < 5; ++pattern)
+  for (int pattern = 0; pattern < RectifiedTransport::numberOfSeedPatterns; ++pattern)
   {
     sampler->SetSeedPattern(pattern);
     sampler->SetNumberOfParticles(std::numeric_limits<vtkIdType>::max());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sampler's output: counts, arrays, types, mass and cost, one vertex a particle.
+#include "../../SeedPatterns.h"
 #include "TestData.h"
 
 #include "vtkCellArray.h"
@@ -77,11 +78,9 @@ void checkCounts(Checks& checks)
 {
   vtkNew<vtkTransportSampler> sampler;
   sampler->SetInputData(makeImage(13, 7, 1, true, bumpy));
-  using Sampler = vtkTransportSampler;
-  for (const int pattern :
-    { Sampler::BLUE_NOISE, Sampler::JITTERED, Sampler::LOW_DISCREPANCY, Sampler::RANDOM })
+  for (const auto pattern : RectifiedTransport::scatteredPatterns)
   {
-    sampler->SetSeedPattern(pattern);
+    sampler->SetSeedPattern(static_cast<int>(pattern));
     for (const vtkIdType count : { 1, 2, 7, 100, 1237 })
     {
       sampler->SetNumberOfParticles(count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The progress of every filter begins at 0, never goes back and ends at 1: in the first run, in one
 // that finds all made, and where only a part is new.
+#include "../../SeedPatterns.h"
 #include "BlendTest.h"
 #include "CellsTest.h"
 #include "KindTest.h"
@@ -129,7 +130,7 @@ void checkSources(Checks& checks)
   for (const int dimension : { 2, 3 })
   {
     seeds->SetDimension(dimension);
-    for (int pattern = 0; pattern < 5; ++pattern)
+    for (int pattern = 0; pattern < RectifiedTransport::numberOfSeedPatterns; ++pattern)
     {
       seeds->SetPattern(pattern);
       expectRising(checks, seeds, "seeds", __LINE__);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The source of uniform seeds: counts, bounds, the plane, evenness, errors.
+#include "../../SeedPatterns.h"
 #include "ProgressTest.h"
 
 #include "vtkUniformSeedSource.h"
@@ -53,8 +54,7 @@ void checkPatterns(Checks& checks)
   for (const int dimension : { 2, 3 })
   {
     source->SetDimension(dimension);
-    for (int pattern = vtkUniformSeedSource::BLUE_NOISE; pattern <= vtkUniformSeedSource::RANDOM;
-         ++pattern)
+    for (int pattern = 0; pattern < RectifiedTransport::numberOfSeedPatterns; ++pattern)
     {
       source->SetPattern(pattern);
       if (pattern == vtkUniformSeedSource::LATTICE)
@@ -130,7 +130,7 @@ void checkPieces(Checks& checks)
 {
   for (const int dimension : { 2, 3 })
   {
-    for (int pattern = 0; pattern < 5; ++pattern)
+    for (int pattern = 0; pattern < RectifiedTransport::numberOfSeedPatterns; ++pattern)
     {
       vtkNew<vtkUniformSeedSource> source;
       source->SetPattern(pattern);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where vtkSurfaceSampler puts particles: on the surface, as many as asked for, by area or by mass,
 // and on a flat rectangle where vtkTransportSampler puts them.
+#include "../../SeedPatterns.h"
 #include "SurfaceSamplerTest.h"
 
 #include "vtkCell.h"
@@ -179,7 +180,7 @@ void checkPatterns(Checks& checks)
   sampler->SetMethodToFlow();
   sampler->SetInputData(makeHill());
   sampler->SetNumberOfParticles(777);
-  for (int pattern = 0; pattern < 5; ++pattern)
+  for (int pattern = 0; pattern < RectifiedTransport::numberOfSeedPatterns; ++pattern)
   {
     sampler->SetSeedPattern(pattern);
     const vtkIdType count = runSampler(sampler)->GetNumberOfPoints();

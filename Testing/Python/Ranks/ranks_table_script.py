@@ -11,6 +11,7 @@ import sys
 from paraview import simple
 from ranks_rows import (RANK, gathered, give, give_row, redistributed, refined, tiles, turned,
                         with_ghosts)
+from rt_filters import PATTERNS
 from rt_testing import load_plugin, producer
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -67,7 +68,7 @@ def scattered_torus():
 
 def give_data():
     """Seeds in pieces; densities that are no images; filters that gather their inputs."""
-    for pattern in ("BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"):
+    for pattern in PATTERNS:
         give("uniform " + pattern, simple.UniformSeeds(
             NumberOfPoints=700, Dimension=3 if pattern == "Random" else 2, Pattern=pattern))
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])

@@ -22,11 +22,10 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkMultiBlockDataSet
 import rectifiedtransport as rt
 from rt_digest_inputs import (TURN, box_of_triangles, colours, image, points_in, sheet, values,
                               with_ghosts)
-from rt_filters import FILTERS
+from rt_filters import FILTERS, PATTERNS
 from rt_series import Series
 from rt_testing import SOURCE, region_map
 
-PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
 INTEGRATORS = ["Multistep", "RungeKutta4", "Euler", "Adaptive"]
 MAPS = ["Auto", "On", "Off"]
 KERNELS = ["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]

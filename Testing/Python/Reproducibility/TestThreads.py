@@ -9,6 +9,7 @@ import subprocess
 import sys
 import unittest
 
+from rt_filters import PATTERNS
 from rt_testing import density_image, digest, main
 
 SETTINGS = [("Serial", {})]
@@ -22,7 +23,7 @@ def samples(threading, shape):
     """The hashes of all patterns, with each integrator once."""
     from rectifiedtransport import vtkTransportSampler
     lines = []
-    for pattern in range(5):
+    for pattern in range(len(PATTERNS)):
         sampler = vtkTransportSampler()
         sampler.SetInputData(density_image(shape))
         sampler.SetNumberOfParticles(5000)

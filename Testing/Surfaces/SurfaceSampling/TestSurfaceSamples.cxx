@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points of a surface that follow masses: against the flow of an image where the surface is flat,
 // and by counts where it is not.
+#include "../../SeedPatterns.h"
 #include "Surfaces/SurfaceSampling/SamplePatches.h"
 #include "Surfaces/SurfaceSampling/SurfaceSamples.h"
 
@@ -111,8 +112,7 @@ TEST(SurfaceSamples, RectangleAsImage)
   options.NumberOfSamples = 1500;
   options.Resolution = 48;
   options.Flow.NumberOfSteps = 24;
-  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Lattice,
-         SeedPattern::Jittered, SeedPattern::LowDiscrepancy, SeedPattern::Random })
+  for (const SeedPattern pattern : seedPatterns)
   {
     options.Pattern = pattern;
     const std::vector<PlaceOnTriangle> places =
