@@ -48,7 +48,7 @@ class Budgets(unittest.TestCase):
         passed = passed_budgets(found, budgets)
         if passed:
             self.fail("\n%s\nThe budgets of Testing/House/budgets.json are only lowered, except for a "
-                      "new filter." % "\n".join(passed))
+                      "filter, property, choice or repair." % "\n".join(passed))
 
     def test_names_in_programs_of_tests(self):
         """Each folder is one program, or few, that contain the sources, too."""
