@@ -195,7 +195,7 @@ configure_and_build()
   steps="$(cmake --build "$folder" --target ${target:-all} -- -f count.ninja -n |
     grep -c '^\[' || true)"
   if [ "$steps" != 0 ]; then
-    say "Building in $folder: $steps steps, about $((1 + steps * 2 / 60 / $(nproc))) min"
+    say "Building in $folder: $steps steps, about $((1 + steps * 9 / 120 / $(nproc))) min"
     echo "What the compiler says is in $folder/build.log"
   fi
   # shellcheck disable=SC2086
@@ -213,6 +213,7 @@ build_release()
   need_for_window
   configure_and_build "$build" -DCMAKE_BUILD_TYPE=Release "${anew_for_window[@]}" \
     -DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=ON -DRectifiedTransport_BUILD_EXAMPLES=ON \
+    -DRectifiedTransport_UNITY_BUILD=ON \
     -DCMAKE_COMPILE_WARNING_AS_ERROR="$warnings" "$@"
 }
 

@@ -7,7 +7,7 @@ usage()
 {
   cat << 'TEXT'
 usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk]
-                           [--package] [--all] [--suite SUITE]...
+                           [--package] [--all] [--quick] [--suite SUITE]...
   Builds Release into build/ and runs its tests. Further legs:
   --long   also the tests that take minutes; others run on more ranks
   --gui    also the tests that drive ParaView's own window, on a virtual display
@@ -18,14 +18,16 @@ usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk]
   --package  makes a Debian package in build-package/, and installs, uses and removes it in a bare
            system of this suite, made by debootstrap in build-suites/. Needs root or sudo, and 4 GB.
   --all    all of these
+  --quick  the Python tests alone, without slow ones and the examples, and a build of what they need
   --suite  runs Examples/run.sh, and this command with the other arguments, in another suite of
            Debian (trixie, sid) instead of here: a bare system made by debootstrap, which is kept
-           in build-suites/. Needs root or sudo, and up to 6 GB a suite.
+           in build-suites/, or in the folder that RT_SUITES names. Needs root or sudo, and up to
+           6 GB a suite. With --quick, of the examples only the main job.
 TEXT
 }
 
 arguments=() suites=()
-long=0 gui=0 core=0 asan=0 tsan=0 vtk=0 package=0
+long=0 gui=0 core=0 asan=0 tsan=0 vtk=0 package=0 quick=0
 while [ $# -gt 0 ]; do
   case "$1" in
     --long) long=1 ;;
@@ -36,6 +38,7 @@ while [ $# -gt 0 ]; do
     --vtk) vtk=1 ;;
     --package) package=1 ;;
     --all) long=1 gui=1 core=1 asan=1 tsan=1 vtk=1 package=1 ;;
+    --quick) quick=1 ;;
     --suite)
       if ! [[ "${2:-}" =~ ^[a-z]+$ ]]; then
         echo "--suite needs the name of a suite of Debian: trixie or sid" >&2
@@ -72,11 +75,17 @@ run_suites()
     return
   fi
   need debootstrap debian-archive-keyring
-  mkdir -p "$root/build-suites"
+  mkdir -p "$root/build-suites" "$RT_SUITES"
+  exec 9> "$RT_SUITES/lock"
+  if ! flock --nonblock 9; then
+    echo "Waiting for another run in $RT_SUITES"
+    flock 9
+  fi
   pack_source "$source"
   commit="$(git -C "$root" describe --always --dirty 2> /dev/null || echo 'no commit')"
   for suite in "${suites[@]}"; do
-    as_root bash "$root/Testing/suite.sh" "$suite" "$source" "$commit" "${arguments[@]}" || {
+    as_root env RT_SUITES="$RT_SUITES" \
+      bash "$root/Testing/suite.sh" "$suite" "$source" "$commit" "${arguments[@]}" || {
       [ $? != 130 ] || exit 130 # interrupted
       failed="$failed $suite"
     }
@@ -195,6 +204,7 @@ run_package()
 
 failed=""
 skipped=""
+export RT_SUITES="${RT_SUITES:-$root/build-suites}"
 if [ ${#suites[@]} -gt 0 ]; then
   run_suites
   [ -z "$failed" ]
@@ -230,9 +240,16 @@ fi
 if [ $package = 1 ]; then
   run_package || failed="$failed --package"
 fi
-build_release -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_BENCHMARKS=ON
+if [ $quick = 1 ]; then
+  tests=(-L '^python$')
+  skipped="$skipped|example|slow"
+  target=RectifiedTransportPythonTests build_release -DRectifiedTransport_BUILD_TESTING=ON
+else
+  tests=()
+  build_release -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_BENCHMARKS=ON
+fi
 if [ -n "$failed" ]; then
   say "Failed legs, see above:$failed"
 fi
-run_tests "$build" -LE "^(none$skipped)\$"
+run_tests "$build" "${tests[@]}" -LE "^(none$skipped)\$"
 [ -z "$failed" ]

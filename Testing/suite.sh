@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs both commands in a bare Debian of another suite. Testing/run.sh --suite calls it, as root.
+# Runs both commands in a bare Debian of another suite, kept in the folder that RT_SUITES names.
+# Testing/run.sh --suite calls it, as root.
 # usage: suite.sh SUITE SOURCE.tar COMMIT [ARGUMENT OF Testing/run.sh]...
 source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
 suite="$1" source="$2" commit="$3"
 shift 3
-folder="$root/build-suites/$suite"
+folder="$RT_SUITES/$suite"
 log="$folder.log"
 option=--suite needed=6
 source "$(dirname "${BASH_SOURCE[0]}")/bare_system.sh"
@@ -57,7 +58,11 @@ copy_source
 failed=0
 summary=""
 run_command "$folder-testing.log" bash Testing/run.sh "$@"
-run_command "$folder-examples.log" bash Examples/run.sh --all
+examples=--all
+if [[ " $* " == *" --quick "* ]]; then
+  examples=StippleImage
+fi
+run_command "$folder-examples.log" bash Examples/run.sh "$examples"
 say "$suite, $commit"
 versions
 echo "$summary" | sed '/^$/d'
