@@ -88,7 +88,7 @@ OTHERS = [
       "this->Cache.Content = std::move(content);"),
     S(BRIDGE + "Cartogram/Cartogram.cxx", "content.AddNumbers(&this->Worker.Options.Margin, 1);", ";"),
     E(CORE + "Cartogram/RegionChecks.cxx", "leastRegionDensity * total * «area»;", "0.05"),
-    E(BRIDGE + "Cartogram/RegionCells.cxx", "isComposite && «blocks.size() > 1»;", "true"),
+    E(BRIDGE + "Cartogram/RegionCells.cxx", "return «block.Whole != blocks.front().Whole»;", "blocks.size() > 1"),
     S(BRIDGE + "Cartogram/OverlayParts.cxx", "before += count;", ";"),
     S(BRIDGE + "Cartogram/OverlayParts.cxx", "made->GetPointData()->PassData(input->GetPointData());", ";"),
     # regions that are filled, and files of drawings

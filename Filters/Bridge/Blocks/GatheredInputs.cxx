@@ -14,9 +14,8 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
-#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointSet.h"
 
 #include <utility>
@@ -77,18 +76,14 @@ vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ran
   {
     return gathered.Parts.front().Data;
   }
-  const auto all = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  vtkSmartPointer<vtkPartitionedDataSet> pieces;
+  const auto all = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
   std::int64_t last = -1;
   for (const DataPart& part : gathered.Parts)
   {
-    if (part.Number != last)
-    {
-      pieces = vtkSmartPointer<vtkPartitionedDataSet>::New();
-      all->SetBlock(all->GetNumberOfBlocks(), pieces);
-      last = part.Number;
-    }
-    pieces->SetPartition(pieces->GetNumberOfPartitions(), part.Data);
+    const unsigned int sets = all->GetNumberOfPartitionedDataSets();
+    const unsigned int set = part.Number == last ? sets - 1 : sets;
+    all->SetPartition(set, set < sets ? all->GetNumberOfPartitions(set) : 0, part.Data);
+    last = part.Number;
   }
   return all;
 }

@@ -5,7 +5,7 @@ from rectifiedtransport import vtkCartogram
 from rt_testing import Listener, positions
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkMultiBlockDataSet, vtkMultiPieceDataSet,
                                            vtkPolyData)
 
 
@@ -56,7 +56,8 @@ def blocks_of(*parts):
 
 
 def pieces_of(*parts):
-    whole = vtkPartitionedDataSet()
+    """One data set in pieces. As a block VTK 9.1 takes no other kind of partitioned data set."""
+    whole = vtkMultiPieceDataSet()
     for i, part in enumerate(parts):
         whole.SetPartition(i, part)
     return whole
