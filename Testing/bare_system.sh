@@ -84,7 +84,8 @@ inside()
   local name environment=(PATH=/usr/lib/ccache:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8)
   # Displays share their names with those outside, whose locks cannot be seen from here.
   environment+=("first_display=$((1000 + RANDOM))")
-  for name in CI TERM OMP_WAIT_POLICY http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
+  # Not CI, which makes errors of warnings: other compilers have others.
+  for name in TERM OMP_WAIT_POLICY http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
     if [ -n "${!name:-}" ]; then
       environment+=("$name=${!name}")
     fi
