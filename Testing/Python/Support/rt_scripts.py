@@ -9,7 +9,9 @@ import tempfile
 import traceback
 from unittest import mock
 
-from paraview import simple
+from rt_testing import paraview_simple
+
+simple = paraview_simple()
 
 
 def flush():
