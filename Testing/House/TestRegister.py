@@ -3,10 +3,12 @@
 import glob
 import os
 import re
+import sys
 import unittest
 
-from rt_filters import FILTERS
-from rt_testing import SOURCE, main
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python", "Support"))
+from rt_filters import FILTERS  # noqa: E402
 
 
 def text_of(*paths):
@@ -33,4 +35,4 @@ class Register(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    main()
+    unittest.main(argv=sys.argv[:1], verbosity=2)

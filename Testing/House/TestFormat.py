@@ -5,10 +5,11 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import unittest
 
-from rt_testing import SKIPPED, SOURCE, main
-
+SKIPPED = 77
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # Other versions make other lines of the same style: this one is that of Debian 12.
 VERSION = "14"
 
@@ -44,6 +45,6 @@ class Format(unittest.TestCase):
 if __name__ == "__main__":
     FORMATTER, others = find_formatter()
     if not FORMATTER:
-        print("Skipped: it needs clang-format %s; there is %s" % (VERSION, others), flush=True)
-        os._exit(SKIPPED)
-    main()
+        print("Skipped: it needs clang-format %s; there is %s" % (VERSION, others))
+        sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1], verbosity=2)
