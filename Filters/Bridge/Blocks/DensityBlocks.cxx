@@ -123,7 +123,7 @@ std::vector<Leaf> leavesOf(vtkCompositeDataSet* data)
     if (vtkDataObjectTree::SafeDownCast(object))
     {
       auto* const pieces = vtkPartitionedDataSet::SafeDownCast(object);
-      whole = pieces ? index : whole;
+      whole = index;
       lastPiece = pieces ? index + pieces->GetNumberOfPartitions() : lastPiece;
       continue;
     }
@@ -169,7 +169,8 @@ std::vector<DensityBlock> densityBlocks(
   const vtkSmartPointer<vtkCompositeDataSet> grids =
     markRefinedCells(vtkOverlappingAMR::SafeDownCast(data), ranks);
   auto* composite = grids ? grids.Get() : vtkCompositeDataSet::SafeDownCast(data);
-  for (const Leaf& leaf : composite ? leavesOf(composite) : std::vector<Leaf>{ { data, 0, "", 0 } })
+  for (const Leaf& leaf :
+    composite ? leavesOf(composite) : std::vector<Leaf>(1, Leaf{ data, 0, "", 0 }))
   {
     const std::string name = composite ? leaf.Text() : "input";
     vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(leaf.Data);
