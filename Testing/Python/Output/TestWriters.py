@@ -184,14 +184,14 @@ def write_all(folder, done):
 
 
 def run_writers():
-    """What happened to each output and file: None for the end of the program."""
-    results = {}
+    """What happened to each output and file: None for the end of the program. And how that ended."""
+    results, ends = {}, {}
     with tempfile.TemporaryDirectory() as folder:
         while True:
             run = subprocess.run(
                 [os.environ.get("RT_PVPYTHON", "pvpython"), os.path.abspath(__file__),
                  "--write", folder, json.dumps(sorted(results))],
-                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
             lines = [json.loads(line) for line in run.stdout.decode().splitlines()
                      if line.startswith('["')]
             begun = None
@@ -202,16 +202,17 @@ def run_writers():
                 elif kind == "end":
                     results[rest[0]] = rest[1]
                 elif kind == "all":
-                    return results
+                    return results, ends
             if begun is None or results[begun] is not None:
                 raise RuntimeError("the program that writes has ended without writing: %d"
                                    % run.returncode)
+            ends[begun] = (run.returncode, run.stderr.decode(errors="replace")[-2000:])
 
 
 class Writers(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.results = run_writers()
+        cls.results, cls.ends = run_writers()
 
     def test_every_filter(self):
         written = {re.split(r"\W", key)[0] for key in self.results}
@@ -221,7 +222,7 @@ class Writers(unittest.TestCase):
 
     def test_nothing_ends_the_program(self):
         self.assertGreater(len(self.results), 200)
-        self.assertEqual([key for key, result in self.results.items() if result is None], [])
+        self.assertEqual(self.ends, {})
 
     def finished(self):
         for key, result in self.results.items():
