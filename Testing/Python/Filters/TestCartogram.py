@@ -50,8 +50,7 @@ class TestCartogram(unittest.TestCase):
         turned = [rectangle(x, y, x + 1, y + 1)[::-1] for y in range(4) for x in range(4)]
         back = cartogram(map_of(turned, cell_values(sixteen(), "Mass")))[0].GetRegions()
         np.testing.assert_allclose(ring_areas(back), -expected, rtol=1e-9)
-        single = [map_of([rectangle(i % 4, i // 4, i % 4 + 1, i // 4 + 1)], [20.0 if i == 5 else 1.0],
-                         lines=i % 2 == 1) for i in range(16)]
+        single = [sixteen(numbers=[i], lines=i % 2 == 1) for i in range(16)]
         alone = ring_areas(cartogram(blocks_of(sixteen()))[0].GetRegions())
         np.testing.assert_array_equal(alone, expected)
         joined = cartogram(blocks_of(*single))[0].GetRegions()
@@ -78,8 +77,7 @@ class TestCartogram(unittest.TestCase):
 
     def test_pieces_of_a_data_set(self):
         """A partitioned data set is one, whose cells are regions; in blocks, it is one region."""
-        halves = [map_of([rectangle(i % 4, i // 4, i % 4 + 1, i // 4 + 1) for i in numbers],
-                         [20.0 if i == 5 else 1.0 for i in numbers]) for numbers in (range(8), range(8, 16))]
+        halves = [sixteen(numbers=numbers) for numbers in (range(8), range(8, 16))]
         expected = ring_areas(cartogram(sixteen())[0].GetRegions())
         np.testing.assert_allclose(ring_areas(cartogram(pieces_of(*halves))[0].GetRegions()), expected,
                                    rtol=1e-9)

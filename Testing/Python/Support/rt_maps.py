@@ -43,9 +43,10 @@ def map_of(rings, mass=None, lines=False, place=None, **arrays):
     return data
 
 
-def sixteen(heavy=20.0, **options):
-    rings = [rectangle(x, y, x + 1, y + 1) for y in range(4) for x in range(4)]
-    return map_of(rings, [heavy if i == 5 else 1.0 for i in range(16)], **options)
+def sixteen(heavy=20.0, numbers=range(16), **options):
+    """Unit squares in four rows, or those with some numbers; number 5 is heavy."""
+    rings = [rectangle(i % 4, i // 4, i % 4 + 1, i // 4 + 1) for i in numbers]
+    return map_of(rings, [heavy if i == 5 else 1.0 for i in numbers], **options)
 
 
 def blocks_of(*parts):
