@@ -8,8 +8,9 @@ import subprocess
 import sys
 import unittest
 
+from figures import ROOT
+
 SKIPPED = 77
-SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # Other versions make other lines of the same style: this one is that of Debian 12.
 VERSION = "14"
 
@@ -32,10 +33,10 @@ class Format(unittest.TestCase):
         # Not by git, which an archive of the sources lacks.
         sources = [path for folder in ("Filters", "Plugin", "Testing", "Examples")
                    for path in sorted(glob.glob(os.path.join(folder, "**", "*"),
-                                                root_dir=SOURCE, recursive=True))
+                                                root_dir=ROOT, recursive=True))
                    if path.endswith((".h", ".cxx", ".txx"))]
         self.assertGreater(len(sources), 500)
-        result = subprocess.run([FORMATTER, "--dry-run", "-Werror", *sources], cwd=SOURCE,
+        result = subprocess.run([FORMATTER, "--dry-run", "-Werror", *sources], cwd=ROOT,
                                 stderr=subprocess.PIPE, text=True)
         wrong = sorted(set(re.findall(r"^([^\s:]+):\d+:\d+: error:", result.stderr, re.MULTILINE)))
         self.assertEqual(result.returncode, 0, "%s\nRun: %s -i %s" % (

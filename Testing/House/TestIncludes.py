@@ -7,7 +7,8 @@ import re
 import sys
 import unittest
 
-SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from figures import ROOT
+
 CORE = {  # besides Messages, which all may include
     "Messages": set(),
     "Parallel": set(),
@@ -66,7 +67,7 @@ BRIDGE = collections.defaultdict(lambda: WORKERS, {  # rooms that are not named 
 })
 
 
-FILTERS = os.path.join(SOURCE, "Filters")
+FILTERS = os.path.join(ROOT, "Filters")
 
 
 def sources(*pattern):

@@ -6,15 +6,16 @@ import re
 import sys
 import unittest
 
-SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python", "Support"))
+from figures import ROOT
+
+sys.path.insert(0, os.path.join(ROOT, "Testing", "Python", "Support"))
 from rt_filters import FILTERS  # noqa: E402
 
 
 def text_of(*paths):
     """Of all files that a path within the sources matches."""
     text = ""
-    for path in sorted(glob.glob(os.path.join(SOURCE, *paths))):
+    for path in sorted(glob.glob(os.path.join(ROOT, *paths))):
         with open(path, encoding="utf-8") as file:
             text += file.read()
     return text
