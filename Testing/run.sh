@@ -69,22 +69,23 @@ pack_source()
 run_suites()
 {
   local suite source="$root/build-suites/source.tar" commit
+  local folder="${RT_SUITES:-$root/build-suites}"
   if [ "$(id -u)" != 0 ] && ! command -v sudo > /dev/null; then
     echo "--suite makes a system by debootstrap, for which it needs root or sudo" >&2
     failed=" --suite"
     return
   fi
   need debootstrap debian-archive-keyring
-  mkdir -p "$root/build-suites" "$RT_SUITES"
-  exec 9> "$RT_SUITES/lock"
+  mkdir -p "$root/build-suites" "$folder"
+  exec 9> "$folder/lock"
   if ! flock --nonblock 9; then
-    echo "Waiting for another run in $RT_SUITES"
+    echo "Waiting for another run in $folder"
     flock 9
   fi
   pack_source "$source"
   commit="$(git -C "$root" describe --always --dirty 2> /dev/null || echo 'no commit')"
   for suite in "${suites[@]}"; do
-    as_root env RT_SUITES="$RT_SUITES" \
+    as_root env RT_SUITES="$folder" \
       bash "$root/Testing/suite.sh" "$suite" "$source" "$commit" "${arguments[@]}" || {
       [ $? != 130 ] || exit 130 # interrupted
       failed="$failed $suite"
@@ -204,7 +205,6 @@ run_package()
 
 failed=""
 skipped=""
-export RT_SUITES="${RT_SUITES:-$root/build-suites}"
 if [ ${#suites[@]} -gt 0 ]; then
   run_suites
   [ -z "$failed" ]
