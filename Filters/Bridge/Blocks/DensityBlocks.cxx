@@ -39,6 +39,18 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
+// Visits inner nodes, too. The AMR of VTK 9.6 is a tree whose iterator visits leaves alone.
+vtkSmartPointer<vtkCompositeDataIterator> nodesOf(vtkCompositeDataSet* data)
+{
+  auto nodes = vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
+  auto* tree = vtkDataObjectTreeIterator::SafeDownCast(nodes);
+  if (tree && !data->IsA("vtkAMRDataObject"))
+  {
+    tree->VisitOnlyLeavesOff();
+  }
+  return nodes;
+}
+
 // The newest of a data object's own and of all that are in it, whose arrays count.
 // A composite data set is not modified when a program changes a block in place, so the times of its
 // blocks decide, too. Inner nodes are visited since they change when a block is replaced.
@@ -47,12 +59,7 @@ std::uint64_t timeOf(vtkDataObject* data)
   vtkMTimeType newest = data ? data->GetMTime() : 0;
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
-    const auto nodes = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    auto* tree = vtkDataObjectTreeIterator::SafeDownCast(nodes);
-    if (tree && !composite->IsA("vtkAMRDataObject")) // whose iterator visits leaves alone
-    {
-      tree->VisitOnlyLeavesOff();
-    }
+    const auto nodes = nodesOf(composite);
     for (nodes->InitTraversal(); !nodes->IsDoneWithTraversal(); nodes->GoToNextItem())
     {
       newest = std::max(newest, nodes->GetCurrentDataObject()->GetMTime());
@@ -107,11 +114,7 @@ std::string Leaf::Text() const
 std::vector<Leaf> leavesOf(vtkCompositeDataSet* data)
 {
   std::vector<Leaf> leaves;
-  const auto at = vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
-  if (auto* nodes = vtkDataObjectTreeIterator::SafeDownCast(at))
-  {
-    nodes->VisitOnlyLeavesOff();
-  }
+  const auto at = nodesOf(data);
   // The pieces of a partitioned data set have the indices after its own.
   std::int64_t whole = 0;
   std::int64_t lastPiece =
