@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <vector>
 
 namespace
@@ -21,11 +22,18 @@ namespace
 
 constexpr int shortestSide = 16; // of a picture that is all but a line
 
+// The reader of TGA of VTK 9.6 also takes folders and texts, and ends the program then.
+bool takesAnything(vtkImageReader2* reader, const std::string& path)
+{
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return reader->IsA("vtkTGAReader") && extension != ".tga" && extension != ".TGA";
+}
+
 vtkSmartPointer<vtkImageData> readImage(const std::string& path)
 {
   const auto reader = vtkSmartPointer<vtkImageReader2>::Take(
     vtkImageReader2Factory::CreateImageReader2(path.c_str()));
-  if (!reader)
+  if (!reader || takesAnything(reader, path))
   {
     return nullptr;
   }

@@ -212,7 +212,8 @@ void checkFiles(Checks& checks)
   settle(stippling);
   const Places before = placesOf(stippling);
   std::ofstream("live-broken.png") << "no picture";
-  for (const char* path : { "live-broken.png", "live-nowhere.png", "." })
+  std::ofstream("live-text.txt") << "no\npicture but a text of two lines"; // see takesAnything
+  for (const char* path : { "live-broken.png", "live-text.txt", "live-nowhere.png", "." })
   {
     CHECK(checks, !stippling.Open(path));
     CHECK(checks, contains(stippling.GetMessage(), std::string(path) + " holds no picture"));
@@ -238,8 +239,8 @@ void checkFiles(Checks& checks)
   settle(stippling);
   CHECK(checks, contains(stippling.GetMessage(), "Nothing is painted"));
   CHECK(checks, placesOf(stippling).size() == 1000);
-  for (const char* path :
-    { "live-broken.png", "live-pixel.png", "live-line.png", "live-photo.png", "live-white.png" })
+  for (const char* path : { "live-broken.png", "live-text.txt", "live-pixel.png", "live-line.png",
+         "live-photo.png", "live-white.png" })
   {
     std::remove(path);
   }
