@@ -151,7 +151,8 @@ void expectLeast(const NodeGrid<Dimension>& grid, const std::vector<double>& fro
   }
   const std::vector<double> to = transformOf<Dimension>(grid, from);
   std::vector<double> inPlace = from;
-  Progress progress{ Context(SerialExecutor()) };
+  const SerialExecutor serial;
+  Progress progress{ Context(serial) };
   costTransform<Dimension>(grid, inPlace.data(), inPlace.data(), progress);
   EXPECT_EQ(inPlace, to);
   for (std::int64_t y = 0; y < grid.NumberOfNodes(); ++y)
