@@ -25,6 +25,8 @@ using namespace RectifiedTransport;
 using namespace RectifiedTransport::Bridge;
 
 constexpr int MaximumSupersampling = 16;
+// The enumeration of the class indexes these.
+constexpr const char* OpenSurfacesTexts[] = { "Error", "WindingNumber" };
 
 SolidDensity solidOf(vtkSolidDensity& filter)
 {
@@ -33,6 +35,7 @@ SolidDensity solidOf(vtkSolidDensity& filter)
   solid.Supersampling = filter.GetSupersampling();
   solid.Padding = filter.GetPadding();
   solid.OnPoints = isOnPoints(filter.GetAssociation());
+  solid.MayBeOpen = filter.GetOpenSurfaces() == vtkSolidDensity::OPEN_SURFACES_WINDING_NUMBER;
   return solid;
 }
 } // namespace
@@ -48,6 +51,12 @@ vtkSolidDensity::vtkSolidDensity()
 const char* vtkSolidDensity::GetAssociationAsString()
 {
   return choiceText(AssociationTexts, this->Association);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSolidDensity::GetOpenSurfacesAsString()
+{
+  return choiceText(OpenSurfacesTexts, this->OpenSurfaces);
 }
 
 //------------------------------------------------------------------------------
@@ -67,6 +76,7 @@ int vtkSolidDensity::RequestData(
 {
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
+  requireChoice("OpenSurfaces", this->OpenSurfaces, OpenSurfacesTexts);
   const SolidDensity solid = solidOf(*this);
   requireSolidGrid(this->Resolution, this->Padding);
   const Ranks& ranks = this->GetRanks();
@@ -99,5 +109,6 @@ void vtkSolidDensity::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Supersampling: " << this->Supersampling << "\n";
   os << indent << "Padding: " << this->Padding << "\n";
   os << indent << "Association: " << this->GetAssociationAsString() << "\n";
+  os << indent << "OpenSurfaces: " << this->GetOpenSurfacesAsString() << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -108,6 +108,29 @@ public:
   ///@}
 
   /**
+   * What OpenSurfaces may be.
+   */
+  enum OpenSurfacesType
+  {
+    OPEN_SURFACES_ERROR = 0,
+    OPEN_SURFACES_WINDING_NUMBER = 1
+  };
+
+  ///@{
+  /**
+   * What to do with a surface whose edges stay open. Error (default) counts them. WindingNumber:
+   * inside is where the generalized winding number is a half or more (Jacobson, Kavan and
+   * Sorkine-Hornung 2013); values are then sampled on the lines of Supersampling. Closed surfaces
+   * give the same with both.
+   */
+  vtkSetMacro(OpenSurfaces, int);
+  vtkGetMacro(OpenSurfaces, int);
+  void SetOpenSurfacesToError() { this->SetOpenSurfaces(OPEN_SURFACES_ERROR); }
+  void SetOpenSurfacesToWindingNumber() { this->SetOpenSurfaces(OPEN_SURFACES_WINDING_NUMBER); }
+  const char* GetOpenSurfacesAsString();
+  ///@}
+
+  /**
    * The image with the array Density.
    */
   vtkImageData* GetOutput() { return vtkImageData::SafeDownCast(this->GetOutputDataObject(0)); }
@@ -125,6 +148,7 @@ protected:
   int Supersampling = 2;
   double Padding = 0.05;
   int Association = POINTS;
+  int OpenSurfaces = OPEN_SURFACES_ERROR;
 
 private:
   vtkSolidDensity(const vtkSolidDensity&) = delete;

@@ -135,14 +135,19 @@ SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOpti
   ClosedMesh mesh(std::move(coordinates), stages["points"]);
   // The points are doubles: distances for coordinates rounded to float are not tried.
   const std::string problem = mesh.Close(surface, ClosingDistances(bounds, false), stages["edges"]);
-  if (!problem.empty())
+  const bool isOpen = !problem.empty() && options.MayBeOpen && mesh.Surface().NumberOfTriangles > 0;
+  if (!problem.empty() && !isOpen)
   {
     throw std::invalid_argument("the surface " + problem);
   }
   // Coverage needs index coordinates and one orientation. Points are moved first, because moving
   // rounds them: orientations then follow from the same bits as volumes.
   mesh.MoveToCells(grid, bounds, stages["orientation"]);
-  if (!mesh.Orient(stages["orientation"]))
+  if (isOpen)
+  {
+    mesh.OrientOpen(stages["orientation"]);
+  }
+  else if (!mesh.Orient(stages["orientation"]))
   {
     throw std::invalid_argument("the surface has one side only, so that it has no inside");
   }
@@ -152,6 +157,12 @@ SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOpti
   covered.Cells = grid.Size<3>();
   // One value a cell, axis 0 fastest; coverSolid writes all of them.
   covered.Values.resize(static_cast<std::size_t>(numberOfCells<3>(covered.Cells)));
+  if (isOpen)
+  {
+    coverPartOfOpenSolid(mesh.Surface(), covered.Cells, LatticePart<3>::WholeOf(covered.Cells),
+      options.Supersampling, covered.Values.data(), stages["coverage"]);
+    return covered;
+  }
   coverSolid(
     mesh.Solid(), covered.Cells, options.Supersampling, covered.Values.data(), stages["coverage"]);
   return covered;

@@ -75,6 +75,9 @@ struct SolidOptions
 {
   double Padding = 0.05; // room on each side, as a part of the longest one; 0 and more
   int Supersampling = 2; // lines along each axis of a cell where bodies intersect; 1 and more
+  // Whether a surface may have holes: inside is then where its generalized winding number is a half
+  // or more (see coverPartOfOpenSolid).
+  bool MayBeOpen = false;
 };
 
 // What a solid covers of the cubic cells of a box.
@@ -89,7 +92,7 @@ struct SolidCells
 // The cells of a box around a closed surface that are inside it (paper, Section 5.2), with
 // `resolution` cells along its longest side, 1 and more. Gaps of rounding and T-junctions are
 // closed as ClosedMesh does. Throws std::invalid_argument, which says why, for a surface that stays
-// open or is not orientable.
+// open, unless it may, or is not orientable.
 SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOptions& options = {},
   const Context& context = Context());
 

@@ -46,7 +46,7 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
   return bounds;
 }
 
-ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress)
+ClosedSurface::ClosedSurface(vtkPolyData* input, bool mayBeOpen, Progress& progress)
 {
   const auto points = static_cast<double>(input->GetNumberOfPoints());
   constexpr double bytesOfPoint = 64.0; // with the table
@@ -75,9 +75,12 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress)
     withMemory({ "the edges of the surface's " + std::to_string(triangles) + " triangles",
                  static_cast<double>(triangles) * 110.0 },
       [&]() { return this->Mesh->Close(add, distances, stages["polygons"]); });
-  if (!problem.empty())
+  this->StaysOpen =
+    !problem.empty() && this->Mesh->OpenEdges() + this->Mesh->NonManifoldEdges() > 0;
+  if (!problem.empty() && !(this->StaysOpen && mayBeOpen))
   {
-    throw Failure("The input surface " + problem);
+    throw Failure("The input surface " + problem +
+      (this->StaysOpen ? ". OpenSurfaces WindingNumber takes it with its holes" : ""));
   }
 }
 
@@ -96,6 +99,11 @@ SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress)
   Stages stages(progress, { { "points", 1 }, { "orientation", 1 } });
   this->Mesh->MoveToCells(grid, this->Box, stages["points"]);
   const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
+  if (this->StaysOpen)
+  {
+    this->Mesh->OrientOpen(stages["orientation"]);
+    return this->Mesh->Surface();
+  }
   const bool oriented =
     withMemory({ "the orientation of the surface's triangles",
                  static_cast<double>(triangles) * (2 * sizeof(std::int64_t) + 1) },

@@ -35,8 +35,10 @@ public:
   // rounding, which is 1e-9 of the longest side of the polygons' bounds or four rounding errors of
   // float coordinates, and at T-junctions that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2 of
   // that side. Throws Failure if the input has no polygons, coordinates that are not finite, or
-  // edges of an odd number of triangles, and Cancelled.
-  ClosedSurface(vtkPolyData* input, Progress& progress);
+  // edges of an odd number of triangles that may not stay, and Cancelled.
+  ClosedSurface(vtkPolyData* input, bool mayBeOpen, Progress& progress);
+
+  bool IsOpen() const { return this->StaysOpen; }
 
   // A warning that counts T-junctions that were closed; empty if there were none.
   std::string RepairWarning() const;
@@ -45,13 +47,14 @@ public:
   const std::array<double, 6>& Bounds() const { return this->Box; }
 
   // Returns the surface in the index coordinates of a grid (see ClosedMesh::MoveToCells), the
-  // triangles of each component with one orientation. Throws Failure if a component is not
-  // orientable, and Cancelled.
+  // triangles of each component with one orientation. Throws Failure if a component of a closed
+  // surface is not orientable, and Cancelled.
   SolidSurface InCells(const ImageGrid& grid, Progress& progress);
 
 private:
   std::array<double, 6> Box{};
   std::optional<ClosedMesh> Mesh;
+  bool StaysOpen = false;
 };
 
 } // namespace RectifiedTransport::Bridge

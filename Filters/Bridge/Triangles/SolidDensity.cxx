@@ -25,8 +25,8 @@ namespace RectifiedTransport::Bridge
 namespace
 {
 
-vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, const GridSize<3>& cells,
-  const LatticePart<3>& part, int supersampling, Progress& progress)
+vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, bool isOpen,
+  const GridSize<3>& cells, const LatticePart<3>& part, int supersampling, Progress& progress)
 {
   const std::string grid = describeSize<3>(part.Cells) + " cells (see Resolution)";
   const double count = numberOfCells<3>(part.Cells);
@@ -37,6 +37,12 @@ vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, const GridSiz
                    " triangles in the layers of " + grid,
                  static_cast<double>(surface.Triangles.NumberOfTriangles) * sizeof(vtkIdType) },
       [&]() {
+        if (isOpen)
+        {
+          coverPartOfOpenSolid(
+            surface.Triangles, cells, part, supersampling, density->GetPointer(0), progress);
+          return CoverageReport{};
+        }
         return coverPartOfSolid(
           surface, cells, part, supersampling, density->GetPointer(0), progress);
       });
@@ -71,7 +77,7 @@ SolidDensityReport SolidDensity::Run(vtkPolyData* surface,
   vtkImageData* output) const
 {
   Stages stages(progress, { { "surface", 4 }, { "orientation", 1 }, { "coverage", 5 } });
-  ClosedSurface closed(surface, stages["surface"]);
+  ClosedSurface closed(surface, this->MayBeOpen, stages["surface"]);
   const ImageGrid cells = solidGrid(closed.Bounds(), this->Resolution, this->Padding);
   const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
   const Extent wanted = chooseExtent(grid);
@@ -79,8 +85,8 @@ SolidDensityReport SolidDensity::Run(vtkPolyData* surface,
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   // The values are those of cells, or of the points at their centres.
   const auto part = latticePartOf<3>(tuplesOf(wanted, owner, grid.Extent()), cells);
-  const vtkSmartPointer<vtkDoubleArray> density =
-    cover(triangles, cells.Size<3>(), part, this->Supersampling, stages["coverage"]);
+  const vtkSmartPointer<vtkDoubleArray> density = cover(
+    triangles, closed.IsOpen(), cells.Size<3>(), part, this->Supersampling, stages["coverage"]);
   applyGrid(grid, output);
   Extent extent = wanted; // VTK takes no constant one
   output->SetExtent(extent.data());

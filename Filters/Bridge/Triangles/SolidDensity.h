@@ -37,6 +37,7 @@ struct SolidDensity
   int Supersampling;
   double Padding;
   bool OnPoints;
+  bool MayBeOpen; // OpenSurfaces
 
   // The grid of the image around a surface that is distributed over ranks; without points if there
   // is no surface. Collective. Throws Failure.

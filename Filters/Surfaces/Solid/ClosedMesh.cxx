@@ -4,10 +4,12 @@
 #include "Core/Geometry/CoincidentPoints.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/PointBounds.h"
+#include "Core/Geometry/Vectors.h"
 #include "Core/Parallel/Stages.h"
 #include "Surfaces/Mesh/Repair/MergePoints.h"
 #include "Surfaces/Mesh/Repair/SplitSurface.h"
 #include "Surfaces/Mesh/Repair/TJunctions.h"
+#include "Surfaces/Mesh/SurfaceOrientation.h"
 #include "Surfaces/Solid/DuplicateTriangles.h"
 #include "Surfaces/Solid/OrientedBodies.h"
 
@@ -432,6 +434,36 @@ bool ClosedMesh::Orient(const Context& context)
     this->Edges.reset(); // no longer of these triangles
   }
   return this->Oriented;
+}
+
+void ClosedMesh::OrientOpen(const Context& context)
+{
+  if (!this->Edges)
+  {
+    return;
+  }
+  std::int64_t* triangles = this->Triangles.data();
+  orientSurface(this->Surface(), *this->Edges, triangles, context);
+  this->Edges.reset(); // no longer of these triangles
+  const TriangleSurface surface = this->Surface();
+  PointBounds bounds;
+  for (std::int64_t i = 0; i < 3 * this->NumberOfTriangles; ++i)
+  {
+    bounds.Add(surface.Points[triangles[i]]);
+  }
+  const Point<3> middle = 0.5 * (bounds.Low + bounds.High);
+  double volume = 0.0;
+  for (std::int64_t i = 0; i < this->NumberOfTriangles; ++i)
+  {
+    const auto corner = [&](std::int64_t k) {
+      return pointAt(surface.Points, triangles[3 * i + k]) - middle;
+    };
+    volume += dot(corner(0), cross(corner(1), corner(2)));
+  }
+  for (std::int64_t i = 0; volume < 0.0 && i < this->NumberOfTriangles; ++i)
+  {
+    std::swap(triangles[3 * i + 1], triangles[3 * i + 2]);
+  }
 }
 
 SolidSurface ClosedMesh::Solid() const

@@ -115,6 +115,9 @@ public:
   // is odd. Returns false if there is no orientation, as for a Klein bottle, or the mesh is not
   // closed. Memory: 17 bytes a triangle. On one thread.
   bool Orient(const Context& context = Context());
+  // The same for a mesh that stays open: each component gets the orientation of most of its area,
+  // and all are turned if the volume towards their middle is negative.
+  void OrientOpen(const Context& context = Context());
 
   // The points may be moved, for example to other coordinates; they stay merged as before.
   PointSpan<3> Points() { return { this->Coordinates.data(), this->Coordinates.size() / 3 }; }

@@ -7,6 +7,7 @@
 #include "Surfaces/Solid/SignedVolumes.h"
 #include "Surfaces/Solid/SolidLines.h"
 #include "Surfaces/Solid/TriangleLayers.h"
+#include "Surfaces/Solid/WindingTree.h"
 
 #include <algorithm>
 #include <atomic>
@@ -194,6 +195,40 @@ CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& 
   work.For(
     part.Cells[2], 1, [&run](Index first, Index last) { run.CoverLayers(first, last); }, 1);
   return { run.OpenLines() };
+}
+
+void coverPartOfOpenSolid(const TriangleSurface& surface, const GridSize<3>& cells,
+  const LatticePart<3>& part, int supersampling, double* coverage, const Context& context)
+{
+  if (part.Count() == 0)
+  {
+    return;
+  }
+  Progress progress(context);
+  Stages stages(progress, { { "tree", 1 }, { "layers", 1 }, { "cells", 8 } });
+  const WindingTree tree(surface, stages["tree"]);
+  const TriangleLayers layers(
+    surface, cells[2], part.Low[2], part.Low[2] + part.Cells[2], stages["layers"]);
+  const std::vector<signed char> weights(static_cast<std::size_t>(surface.NumberOfTriangles), 1);
+  const auto winding = [&tree](const Point<3>& place) { return tree.At(place); };
+  Progress& work = stages["cells"];
+  work.For(
+    part.Cells[2], 1,
+    [&](Index first, Index last) {
+      SolidLines lines(surface, layers, weights.data(), cells, part, supersampling);
+      std::vector<double> values(static_cast<std::size_t>(cells[0]));
+      for (Index layer = first; layer < last && !work.ShouldStop(); ++layer)
+      {
+        lines.FindCrossings(part.Low[2] + layer, work);
+        for (Index j = 0; j < part.Cells[1] && !work.ShouldStop(); ++j)
+        {
+          lines.CoverRow(part.Low[2] + layer, j, winding, values.data());
+          std::copy_n(values.data() + part.Low[0], part.Cells[0],
+            coverage + (layer * part.Cells[1] + j) * part.Cells[0]);
+        }
+      }
+    },
+    1);
 }
 
 } // namespace RectifiedTransport

@@ -62,6 +62,13 @@ CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& 
   const LatticePart<3>& part, int supersampling, double* coverage,
   const Context& context = Context());
 
+// The same for triangles that leave holes: inside is where their generalized winding number (see
+// WindingTree.h) is a half or more. Values are those of the lines, supersampling^2 a cell: exact
+// lengths along axis 0. The triangles face outwards, as those of an oriented surface do.
+void coverPartOfOpenSolid(const TriangleSurface& surface, const GridSize<3>& cells,
+  const LatticePart<3>& part, int supersampling, double* coverage,
+  const Context& context = Context());
+
 } // namespace RectifiedTransport
 
 #endif

@@ -150,6 +150,73 @@ std::int64_t SolidLines::CorrectRow(std::int64_t row, double* values)
   return open;
 }
 
+void SolidLines::CoverRow(std::int64_t layer, std::int64_t row,
+  const std::function<double(const Point<3>&)>& winding, double* values)
+{
+  const auto squares = static_cast<double>(this->Squares);
+  const auto columns = static_cast<double>(this->OfRow.Columns());
+  this->OfRow.Clear();
+  std::int64_t line = row * this->LinesPerCell;
+  for (std::int64_t z = 0; z < this->Squares; ++z)
+  {
+    for (std::int64_t y = 0; y < this->Squares; ++y, ++line)
+    {
+      const std::int64_t j = this->FirstLine + row * this->Squares + y;
+      const Point<3> place{ 0.0, (static_cast<double>(j) + 0.5) / squares,
+        (static_cast<double>(layer * this->Squares + z) + 0.5) / squares };
+      const auto isInside = [&](double x) { return winding({ x, place[1], place[2] }) >= 0.5; };
+      this->SortCrossings(line);
+      double from = 0.0;
+      for (std::int64_t i = this->First.data()[line]; i < this->First.data()[line + 1]; ++i)
+      {
+        const double at = std::clamp(this->Crossings.data()[i].X, 0.0, columns);
+        this->CoverInterval(from, at, isInside);
+        from = at;
+      }
+      this->CoverInterval(from, columns, isInside);
+    }
+  }
+  std::fill_n(values, this->OfRow.Columns(), 0.0);
+  this->OfRow.Correct(this->LinesPerCell, values);
+}
+
+// Between two crossings the winding number is smooth: it passes a half in a hole alone.
+void SolidLines::CoverInterval(double from, double to, const std::function<bool(double)>& isInside)
+{
+  constexpr double widest = 8.0;  // cells between two questions
+  constexpr double margin = 1e-3; // the number jumps at the ends
+  constexpr int halvings = 8;
+  if (!(to > from))
+  {
+    return;
+  }
+  const auto parts = static_cast<int>(std::ceil((to - from) / widest));
+  const auto place = [&](int i) {
+    const double share = static_cast<double>(i) / parts;
+    return from + (to - from) * std::clamp(share, margin, 1.0 - margin);
+  };
+  double begin = from;
+  bool is = isInside(place(0));
+  for (int i = 1; i <= parts; ++i)
+  {
+    const bool next = isInside(place(i));
+    if (next != is)
+    {
+      double low = place(i - 1);
+      double high = place(i);
+      for (int k = 0; k < halvings; ++k)
+      {
+        const double middle = 0.5 * (low + high);
+        (isInside(middle) == is ? low : high) = middle;
+      }
+      this->OfRow.Add(begin, high, 0, is);
+      begin = high;
+      is = next;
+    }
+  }
+  this->OfRow.Add(begin, to, 0, is);
+}
+
 // Crossings at one place may be in any order: the intervals between them have no length, and the
 // sums behind them are the same.
 void SolidLines::SortCrossings(std::int64_t line)

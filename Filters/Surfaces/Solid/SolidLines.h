@@ -6,12 +6,14 @@
 
 #include "Core/Geometry/GridSize.h"
 #include "Core/Geometry/LatticePart.h"
+#include "Core/Geometry/Points.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Surfaces/Solid/SurfaceCuts.h"
 #include "Surfaces/Solid/TriangleLayers.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace RectifiedTransport
@@ -23,6 +25,7 @@ class RowLengths
 public:
   explicit RowLengths(std::int64_t columns);
 
+  std::int64_t Columns() const { return static_cast<std::int64_t>(this->Parts.size()); }
   void Clear();
   // Adds an interval of a line that is counted `counted` times, and covered or not.
   void Add(double begin, double end, std::int64_t counted, bool isCovered);
@@ -72,6 +75,12 @@ public:
   // not leave the solid as often as they enter it.
   std::int64_t CorrectRow(std::int64_t row, double* values);
 
+  // For surfaces with holes: writes the share of each cell of a row that is inside along its lines.
+  // `winding` is that of a place, in cells. It jumps at the crossings; between them it
+  // is asked every few cells, and where it passes a half, in between.
+  void CoverRow(std::int64_t layer, std::int64_t row,
+    const std::function<double(const Point<3>&)>& winding, double* values);
+
 private:
   struct Crossing
   {
@@ -85,6 +94,7 @@ private:
   std::int64_t LineOf(std::int64_t j, std::int64_t row) const;
   std::int64_t LineFrom(double coordinate) const;
   void SortCrossings(std::int64_t line);
+  void CoverInterval(double from, double to, const std::function<bool(double)>& isInside);
   template <class Visit>
   std::int64_t ForIntervals(std::int64_t line, const Visit& visit) const;
 

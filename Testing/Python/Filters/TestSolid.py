@@ -159,6 +159,25 @@ class Solids(unittest.TestCase):
         self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
         return reported.errors[0].strip().splitlines()[-1]
 
+    def test_open_scans(self):
+        """A cow with five holes is as large as the whole one; a closed one is the same with both."""
+        whole = simple.XMLPolyDataReader(FileName=[os.path.join(SOURCE, "Testing", "Data", "spot.vtp")])
+        right = solid_volume(whole)
+        self.assertEqual(solid_volume(whole, OpenSurfaces="WindingNumber"), right)
+        scan = whole
+        low, high = np.reshape(whole.GetDataInformation().GetBounds(), (3, 2)).T
+        for side in np.array([[.5, 0, .5], [.5, 1, .4], [0, .5, .5], [1, .5, .5], [.5, .5, 1]]):
+            scan.UpdatePipeline()
+            points = positions(scan.GetClientSideObject().GetOutputDataObject(0))
+            place = points[np.linalg.norm(points - low - side * (high - low), axis=1).argmin()]
+            hole = dict(ClipType="Sphere", Invert=0, Crinkleclip=1)
+            clip = simple.Clip(scan, **hole)
+            clip.ClipType.Center = list(place)
+            clip.ClipType.Radius = .08 * (high - low).max()
+            scan = simple.ExtractSurface(clip)
+        self.assertIn("OpenSurfaces WindingNumber takes it", self.message(scan))
+        self.assertLess(abs(solid_volume(scan, OpenSurfaces="WindingNumber") / right - 1), .01)
+
     def test_klein_bottle(self):
         """Its seam gapes by more than rounding."""
         self.assertIn("one side only", self.message(producer(simple, parametric(vtkParametricKlein()))))

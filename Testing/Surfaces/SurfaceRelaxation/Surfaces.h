@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces that points are spread over.
-#ifndef RectifiedTransport_Surfaces_h
-#define RectifiedTransport_Surfaces_h
+#ifndef Surfaces_h
+#define Surfaces_h
 
 #include "TestMesh.h"
 
