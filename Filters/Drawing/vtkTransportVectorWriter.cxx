@@ -10,6 +10,7 @@
 #include "Core/Drawing/Drawing.h"
 #include "Core/Drawing/OutputFile.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Messages/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -30,6 +31,9 @@ using namespace RectifiedTransport::Bridge;
 
 namespace
 {
+
+// The enumeration of the class indexes these.
+constexpr const char* OrderTexts[] = { "File", "Path" };
 
 // The array that is chosen for all blocks, in one of them; counts the blocks that have it.
 vtkAbstractArray* arrayOf(const OptionalArray& found, int& count)
@@ -66,22 +70,29 @@ vtkTransportVectorWriter::~vtkTransportVectorWriter()
 vtkCxxSetObjectMacro(vtkTransportVectorWriter, LookupTable, vtkScalarsToColors);
 
 //------------------------------------------------------------------------------
+const char* vtkTransportVectorWriter::GetOrderAsString()
+{
+  return choiceText(OrderTexts, this->Order);
+}
+
+//------------------------------------------------------------------------------
 int vtkTransportVectorWriter::Write()
 {
   this->Modified(); // also without a change
-  return this->GetExecutive()->Update();
+  return this->GetExecutive()->Update() && !this->HasFailed() ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
 int vtkTransportVectorWriter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
+  requireChoice("Order", this->Order, OrderTexts);
   if (!this->FileName || !*this->FileName)
   {
     throw Failure("FileName is empty; it must be the file to write");
   }
   TransportVectorWriter writer{ { this->Width, this->PageMargin, {}, this->LineWidth },
-    this->PointRadius, this->FillOutlines != 0, this->LookupTable };
+    this->PointRadius, this->FillOutlines != 0, this->Order == ORDER_PATH, this->LookupTable };
   std::copy_n(this->PageBounds, writer.Page.Bounds.size(), writer.Page.Bounds.begin());
   writer.Check();
   AlgorithmProgress progress(this, this->Threading);
@@ -130,6 +141,7 @@ void vtkTransportVectorWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PointRadius: " << this->PointRadius << "\n";
   os << indent << "LineWidth: " << this->LineWidth << "\n";
   os << indent << "FillOutlines: " << (this->FillOutlines ? "On" : "Off") << "\n";
+  os << indent << "Order: " << this->GetOrderAsString() << "\n";
   os << indent << "LookupTable: " << (this->LookupTable ? "set" : "(none)") << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -118,6 +118,27 @@ public:
   vtkBooleanMacro(FillOutlines, vtkTypeBool);
   ///@}
 
+  /**
+   * What Order may be.
+   */
+  enum OrderType
+  {
+    ORDER_FILE = 0,
+    ORDER_PATH = 1
+  };
+
+  ///@{
+  /**
+   * The order of the dots of each data set. File (default): as they are. Path: along a short path,
+   * for plotters.
+   */
+  vtkSetMacro(Order, int);
+  vtkGetMacro(Order, int);
+  void SetOrderToFile() { this->SetOrder(ORDER_FILE); }
+  void SetOrderToPath() { this->SetOrder(ORDER_PATH); }
+  const char* GetOrderAsString();
+  ///@}
+
   ///@{
   /**
    * The colors of the values of a ColorArray that is not colors itself. Default: none, VTK's colors
@@ -152,6 +173,7 @@ protected:
   double PointRadius = 0.0;
   double LineWidth = 0.25;
   vtkTypeBool FillOutlines = false;
+  int Order = ORDER_FILE;
   vtkScalarsToColors* LookupTable = nullptr;
 
 private:

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Drawing/DrawingLayer.h"
 
+#include "Core/Drawing/DotPath.h"
 #include "Core/Drawing/PolygonBatch.h"
 
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <array>
 #include <cstddef>
+#include <vector>
 
 namespace RectifiedTransport::Bridge
 {
@@ -159,12 +162,28 @@ DrawingLayer::DrawingLayer(
   }
 }
 
-void DrawingLayer::Draw(const PageLayout& layout, Drawing& drawing, Progress& progress) const
+void DrawingLayer::Draw(
+  const PageLayout& layout, Drawing& drawing, bool hasShortPath, Progress& progress) const
 {
   LayerPainter painter(*this, layout, drawing);
   painter.PaintRegions(); // below the rest
   // Filled polygons first, then lines and dots, in the order of PolyDataShapes.
-  this->Shapes.ForEach(progress, [&](const Shape& shape) { painter.Paint(shape); });
+  std::vector<Point<2>> places;
+  std::vector<std::array<vtkIdType, 2>> dots; // point and cell
+  this->Shapes.ForEach(progress, [&](const Shape& shape) {
+    if (!hasShortPath || shape.Kind != ShapeKind::Dot)
+    {
+      painter.Paint(shape);
+      return;
+    }
+    places.push_back(layout.At(this->At(shape.Points[0])));
+    dots.push_back({ shape.Points[0], shape.Cell });
+  });
+  for (const std::int64_t i : shortPath(places, progress))
+  {
+    const auto& [point, cell] = dots[static_cast<std::size_t>(i)];
+    painter.Paint({ ShapeKind::Dot, &point, 1, cell });
+  }
   painter.End();
 }
 

@@ -35,8 +35,10 @@ public:
   {
     return !this->Outlines.empty() && this->Outlines[static_cast<std::size_t>(cell)];
   }
-  // Throws Failure, if the drawing cannot be written, and Cancelled.
-  void Draw(const PageLayout& layout, Drawing& drawing, Progress& progress) const;
+  // With a short path the dots come in its order. Throws Failure, if the drawing cannot be written,
+  // and Cancelled.
+  void Draw(
+    const PageLayout& layout, Drawing& drawing, bool hasShortPath, Progress& progress) const;
 
   const PolyDataShapes& Shapes;
   DoubleTuples Points;

@@ -215,7 +215,7 @@ void TransportVectorWriter::Run(
   Progress& painting = stages["drawing"].Expect(shapes);
   for (const DrawingLayer& layer : layers)
   {
-    layer.Draw(layout, drawing, painting);
+    layer.Draw(layout, drawing, this->HasShortPath, painting);
   }
   drawing.End();
 }

@@ -40,6 +40,7 @@ struct TransportVectorWriter
   PageSettings Page;
   double PointRadius;
   bool FillOutlines;
+  bool HasShortPath;               // Order
   vtkScalarsToColors* LookupTable; // nullptr: VTK's colours over the range of the values
 
   // Throws Failure for values out of range.

@@ -102,6 +102,20 @@ class VectorFiles(unittest.TestCase):
                 alike = np.abs(found - colours).max(axis=1) < 12
                 self.assertGreater(alike.mean(), 0.9)  # of others a later dot covers the centre
 
+    def test_order_of_plotters(self):
+        """The raccoon in 20,000 dots on 100 mm: the same dots along at most 12.5 m."""
+        sampler = simple.SampleDensity(photograph(), NumberOfParticles=20000, InvertDensity=1)
+        found = {}
+        for order in ("File", "Path"):
+            text = self.text(sampler, PointRadius=2.5, Order=order)
+            found[order] = np.array(re.findall(r'cx="([^"]*)" cy="([^"]*)"', text)).astype(float)
+            self.assertEqual(found[order].shape, (20000, 2))
+        self.assertEqual(*[sorted(map(tuple, dots)) for dots in found.values()])
+        length = {order: np.linalg.norm(np.diff(dots, axis=0), axis=1).sum()
+                  for order, dots in found.items()}
+        self.assertGreater(length["File"], 21e3)
+        self.assertLess(length["Path"], 12.5e3)
+
     @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
     def test_polygons_and_lines(self):
         """The silhouette of a sphere from triangles in their colours; paths; an outline in millimetres."""
