@@ -115,8 +115,7 @@ int vtkEqualMassCells::RequestInformation(
     // One site has bounds without volume: the domain is then a unit square, a placeholder for an
     // execution that reports an error or that has no sites.
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
-    grid = count > 1 ? pixels.Around(sites, ranks)
-                     : gridWithResolution(gridOfBox(unit), this->Resolution, "Resolution");
+    grid = count > 1 ? pixels.Around(sites, ranks) : pixels.In(gridOfBox(unit));
   }
   announceSubExtents(outputVector->GetInformationObject(0));
   announceGrid(grid, outputVector->GetInformationObject(0));
@@ -142,7 +141,10 @@ int vtkEqualMassCells::RequestData(
     this->NormExponent >= 1.0, "NormExponent", this->NormExponent, "at least 1, or infinite");
   requireThat(this->CostExponent > 0.0 && std::isfinite(this->CostExponent), "CostExponent",
     this->CostExponent, "a number above 0");
-  requireResolution("Resolution", this->Resolution);
+  if (this->Resolution != 0)
+  {
+    requireResolution("Resolution", this->Resolution);
+  }
   requireChoice("Shape", this->Shape, ShapeTexts);
   requireChoice("Measure", this->Measure, MeasureTexts);
   // A power diagram is optimal for the squared Euclidean distance alone, where both exponents are
@@ -158,6 +160,7 @@ int vtkEqualMassCells::RequestData(
   cells.Norm = { this->NormExponent, this->CostExponent };
   cells.Resolution = this->Resolution;
   cells.IsPower = this->Shape == SHAPE_POWER;
+  cells.Warn = [this](const std::string& text) { this->WarnOnFirstRank(text); };
   AlgorithmProgress progress(this, this->Threading);
   Stages stages(progress,
     { { "reading", this->Measure == DENSITY ? 5.0 : 0.0 }, { "cells", 94 }, { "colours", 1 } });

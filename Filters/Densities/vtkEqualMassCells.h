@@ -166,8 +166,9 @@ public:
 
   ///@{
   /**
-   * The number of pixels along the longest side of the domain, at least 1. Default 512. The numbers
-   * along the other sides make the pixels as near to cubes as possible.
+   * The number of pixels along the longest side of the domain; 0 (default) is 512 in 2D and 64 in
+   * 3D. The numbers along the other sides make the pixels as near to cubes as possible. More than 8
+   * million pixels are a warning, before they are made.
    */
   vtkSetMacro(Resolution, int);
   vtkGetMacro(Resolution, int);
@@ -223,7 +224,7 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Resolution = 512;
+  int Resolution = 0;
   double NormExponent = 2.0;
   double CostExponent = 2.0;
   int Shape = SHAPE_FLOW;

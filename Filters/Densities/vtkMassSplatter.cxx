@@ -4,6 +4,7 @@
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Data/PointMasses.h"
+#include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/MassSplatter.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Inputs/InputBlock.h"
@@ -12,6 +13,7 @@
 #include "Core/Messages/PartText.h"
 #include "Core/Messages/PropertyCheck.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -34,11 +36,13 @@ const char* const BoundaryTexts[] = { "Renormalize", "Drop" };
 // RequestInformation checks Dimensions, too: it makes a grid of them before RequestData does.
 void requireDimensions(const int dimensions[3])
 {
-  if (*std::min_element(dimensions, dimensions + 3) < 1)
+  const int* end = dimensions + 3;
+  if (*std::min_element(dimensions, end) < 1 &&
+    std::any_of(dimensions, end, [](int values) { return values != 0; }))
   {
     throw Failure("Dimensions is " + std::to_string(dimensions[0]) + " " +
       std::to_string(dimensions[1]) + " " + std::to_string(dimensions[2]) +
-      "; it must be at least 1 along every axis");
+      "; it must be at least 1 along every axis, or 0 0 0");
   }
 }
 
@@ -116,11 +120,13 @@ int vtkMassSplatter::RequestInformation(
   {
     double bounds[6];
     const Ranks& ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
-    findBounds(vtkPointSet::GetData(inputVector[0]), ranks, bounds);
+    vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
+    findBounds(points, ranks, bounds);
     requireDimensions(this->Dimensions);
+    const DistributedPoints counted(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
     if (bounds[0] <= bounds[1])
     {
-      grid = splatter.GridAround(bounds);
+      grid = splatter.GridAround(bounds, counted.All());
     }
   }
   announceSubExtents(outputVector->GetInformationObject(0));

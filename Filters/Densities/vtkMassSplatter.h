@@ -90,7 +90,8 @@ public:
   ///@{
   /**
    * Without a Reference: the number of values of the output along x, y and z, at least 1 each. An
-   * axis along which the points have no extent has one. Default 128 128 128.
+   * axis along which the points have no extent has one. 0 0 0 (default): about as many cells as
+   * points, nearly cubes, at most 128 along an axis.
    */
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
@@ -184,7 +185,7 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  int Dimensions[3] = { 128, 128, 128 };
+  int Dimensions[3] = { 0, 0, 0 };
   int Association = POINTS;
   int Kernel = CLOUD_IN_CELL;
   double Radius = 1.0;

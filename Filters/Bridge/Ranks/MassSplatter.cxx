@@ -24,6 +24,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -59,6 +60,23 @@ void requireAxis(const ImageGrid& cells, bool hasReference)
         : "The input's points are all at one place, about which there is no box; connect an image "
           "as the Reference, or points that differ");
   }
+}
+
+// The cells along the longest side of a box that make about as many cells as points: in a finer
+// image most cells would be empty.
+int resolutionFor(std::int64_t points, const ImageGrid& box)
+{
+  constexpr double most = 128.0;
+  double longest = 0.0;
+  double measure = 1.0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double length = box.IsAxis(i) ? box.Spacing()[static_cast<Eigen::Index>(i)] : 1.0;
+    longest = box.IsAxis(i) ? std::max(longest, length) : longest;
+    measure *= length;
+  }
+  const double side = std::pow(measure / static_cast<double>(points), 1.0 / box.Dimension());
+  return static_cast<int>(std::clamp(std::round(longest / side), 1.0, most));
 }
 
 // Asked for before VTK allocates the image: Dimensions may be far too large. `values` is the number
@@ -172,10 +190,14 @@ SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const T
 
 } // namespace
 
-ImageGrid MassSplatter::CellsIn(const double (&bounds)[6]) const
+ImageGrid MassSplatter::CellsIn(const double (&bounds)[6], std::int64_t points) const
 {
   // An axis along which all points have one coordinate has no length, and one cell.
   const ImageGrid box = gridOfBox(bounds);
+  if (box.Dimension() > 0 && this->Dimensions == std::array<int, 3>{})
+  {
+    return gridWithResolution(box, resolutionFor(points, box), "Dimensions");
+  }
   int dimensions[3];
   for (std::size_t a = 0; a < 3; ++a)
   {
@@ -191,9 +213,9 @@ ImageGrid MassSplatter::GridOf(const ImageGrid& cells, bool hasReference) const
   return this->OnPoints && !hasReference ? cells.AtCellCentres() : cells;
 }
 
-ImageGrid MassSplatter::GridAround(const double (&bounds)[6]) const
+ImageGrid MassSplatter::GridAround(const double (&bounds)[6], std::int64_t points) const
 {
-  return this->GridOf(this->CellsIn(bounds), false);
+  return this->GridOf(this->CellsIn(bounds, points), false);
 }
 
 // The grid of the image that all ranks have together.
@@ -228,7 +250,7 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   {
     double bounds[6];
     findBounds(counted.Set(), stages["bounds"], bounds);
-    cells = this->CellsIn(bounds);
+    cells = this->CellsIn(bounds, counted.All());
   }
   // No points anywhere, or an empty reference: all ranks return an empty output.
   if (cells.IsEmpty())

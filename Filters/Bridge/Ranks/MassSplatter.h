@@ -29,7 +29,7 @@ namespace RectifiedTransport::Bridge
 // The members are the properties of that class.
 struct MassSplatter
 {
-  std::array<int, 3> Dimensions; // without a reference
+  std::array<int, 3> Dimensions; // without a reference; 0 0 0: by the points
   bool OnPoints;
   bool DivideByVolume;
   SplatOptions Splat;
@@ -48,8 +48,8 @@ struct MassSplatter
     vtkInformation* Output; // the pipeline information of the output
   };
 
-  // The grid of the output on the points' bounds, without a reference. Throws Failure.
-  ImageGrid GridAround(const double (&bounds)[6]) const;
+  // The grid of the output around so many points, without a reference. Throws Failure.
+  ImageGrid GridAround(const double (&bounds)[6], std::int64_t points) const;
 
   // Splats masses, 1 each if `masses` is nullptr, onto the grid of a reference or of the points'
   // bounds. Collective: each rank gives its part of points and reference, which may be nullptr, and
@@ -59,7 +59,7 @@ struct MassSplatter
 
 private:
   ImageGrid GridOfReference(vtkImageData* reference, const Ranks& ranks) const;
-  ImageGrid CellsIn(const double (&bounds)[6]) const;
+  ImageGrid CellsIn(const double (&bounds)[6], std::int64_t points) const;
   ImageGrid GridOf(const ImageGrid& cells, bool hasReference) const;
 };
 

@@ -9,6 +9,7 @@
 #include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Parallel/MemoryPlan.h"
 #include "Core/SiteCells/DensitySiteCells.h"
 #include "Core/SiteCells/PowerSiteCells.h"
 #include "Core/SiteCells/SiteCells.h"
@@ -19,7 +20,9 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -336,6 +339,22 @@ void requireDivisible(const ImageGrid& grid, bool isPower)
   }
 }
 
+// Said before they are made, since that takes a while.
+void warnOfManyPixels(const EqualMassCells& cells, const ImageGrid& grid)
+{
+  constexpr double many = 8e6;
+  constexpr double bytesOfPixel = 41.0; // in the largest step, without outlines
+  const double pixels = numberOfValues(grid);
+  if (pixels > many)
+  {
+    std::ostringstream text;
+    text << describeValues(grid) << " pixels are " << std::llround(pixels / 1e6)
+         << " million and take about " << MemoryPlan{ "", bytesOfPixel * pixels }.Amount()
+         << "; a lower Resolution is quicker";
+    cells.Warn(text.str());
+  }
+}
+
 void requireMemoryForLabels(const ImageGrid& grid, double eachPixel, double more)
 {
   requireMemory({ "labels of " + describeValues(grid) + " pixels (see Resolution)",
@@ -356,6 +375,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
   const LabelGrid pixels{ this->Resolution };
   const ImageGrid grid = domain ? pixels.On(domain) : pixels.Around(sites);
   requireDivisible(grid, this->IsPower);
+  warnOfManyPixels(*this, grid);
   // Kept labels need no memory for another labelling: only the exponents of the cost changed.
   if (!kept.Holds(identityOfDivision(sites, grid, this->IsPower ? nullptr : &this->Flow)))
   {
@@ -380,6 +400,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& den
   // The pixels fill the density's box, and need not be its cells.
   const ImageGrid grid = LabelGrid{ this->Resolution }.On(density.Grid());
   requireDivisible(grid, this->IsPower);
+  warnOfManyPixels(*this, grid);
   const auto bytes = dispatchDimension(grid.Dimension(), bytesOfLabellingByMass<1>,
     bytesOfLabellingByMass<2>, bytesOfLabellingByMass<3>);
   requireMemoryForLabels(

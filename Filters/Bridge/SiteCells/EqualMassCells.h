@@ -6,6 +6,9 @@
 #include "Bridge/Plan/FlowCache.h"
 #include "Bridge/SiteCells/CellOutputs.h"
 
+#include <functional>
+#include <string>
+
 namespace RectifiedTransport::Bridge
 {
 
@@ -16,6 +19,7 @@ struct EqualMassCells
   CostNorm Norm;
   int Resolution;
   bool IsPower = false; // Shape
+  std::function<void(const std::string&)> Warn;
 
   // What warnings count.
   struct Report

@@ -18,8 +18,9 @@ namespace RectifiedTransport::Bridge
 // If the data are distributed, the functions are collective. They throw Failure.
 struct LabelGrid
 {
-  int Resolution;
+  int Resolution; // 0: by the dimension
 
+  ImageGrid In(const ImageGrid& box) const;
   // In the box of a domain: the box of an image, as for a density, or the bounds of other data. A
   // domain without points gives a grid without points.
   ImageGrid On(vtkDataObject* domain, const Ranks& ranks = SoloRanks::Get()) const;

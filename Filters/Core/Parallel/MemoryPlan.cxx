@@ -11,6 +11,11 @@ namespace RectifiedTransport
 
 std::string MemoryPlan::DescribeLack() const
 {
+  return "Not enough memory for " + this->Purpose + ": " + this->Amount() + " were asked for";
+}
+
+std::string MemoryPlan::Amount() const
+{
   const char* const units[] = { "bytes", "kB", "MB", "GB", "TB", "PB" };
   double bytes = this->Bytes;
   int unit = 0;
@@ -20,8 +25,7 @@ std::string MemoryPlan::DescribeLack() const
   }
   std::ostringstream message;
   message.precision(3);
-  message << "Not enough memory for " << this->Purpose << ": " << bytes << " " << units[unit]
-          << " were asked for";
+  message << bytes << " " << units[unit];
   return message.str();
 }
 

@@ -15,6 +15,8 @@ struct MemoryPlan
 
   // "Not enough memory for ...: 3.2 GB were asked for".
   std::string DescribeLack() const;
+  // "3.2 GB".
+  std::string Amount() const;
   // Whether a single block of this size can be allocated now. Systems that overcommit memory refuse
   // single blocks that exceed it, but not sums of blocks.
   bool Fits() const;

@@ -143,10 +143,10 @@ void checkErrors(Checks& checks)
     return cells;
   };
   auto cells = fresh();
-  cells->SetResolution(0);
-  ErrorTest(checks, cells).Expect("Resolution is 0; it must be from 1", __LINE__);
+  cells->SetResolution(-1);
+  ErrorTest(checks, cells).Expect("Resolution is -1; it must be from 1", __LINE__);
   cells->SetInputData(makePoints({})); // what is wrong is wrong without sites, too
-  ErrorTest(checks, cells).Expect("Resolution is 0; it must be from 1", __LINE__);
+  ErrorTest(checks, cells).Expect("Resolution is -1; it must be from 1", __LINE__);
   cells = fresh();
   cells->SetResolution(2); // 2 x 2 pixels or fewer
   ErrorTest(checks, cells).Expect({ "5 sites", "raise Resolution" }, __LINE__);
