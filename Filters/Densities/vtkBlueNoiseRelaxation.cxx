@@ -8,6 +8,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Samples/BlueNoiseRelaxation.h"
+#include "Bridge/Samples/DensityAgreement.h"
 #include "Core/Messages/PartText.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
@@ -78,6 +79,7 @@ int vtkBlueNoiseRelaxation::RequestData(
   addReadings(output, { density->HowRead() });
   addFieldValues(output, "Energy", report.Energy);
   addFieldValue(output, "OutsidePoints", static_cast<double>(report.PointsMoved));
+  this->WarnOnFirstRank(disagreementWarning(report.Correlation, this->InvertDensity != 0));
   if (isWorthWarning(report.PointsMoved, counted.Count()))
   {
     vtkWarningMacro(<< report.PointsMoved << " of " << counted.Count()

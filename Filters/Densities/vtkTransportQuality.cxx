@@ -8,6 +8,7 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Settings/TransportSettings.h"
+#include "Bridge/Samples/DensityAgreement.h"
 #include "Bridge/Samples/TransportQuality.h"
 #include "Core/Messages/PropertyCheck.h"
 #include "Core/Parallel/Stages.h"
@@ -81,6 +82,7 @@ int vtkTransportQuality::RequestData(
     measure.Run(particles, *density, this->GetFlowCache(), stages["quality"]);
   vtkTable* output = vtkTable::GetData(outputVector);
   addReadings(output, { density->HowRead() });
+  this->WarnOnFirstRank(disagreementWarning(quality.Correlation, this->InvertDensity != 0));
   if (!ranks.IsFirst())
   {
     return 1;

@@ -5,6 +5,7 @@
 #include "Bridge/Plan/DensityQueries.h"
 #include "Bridge/Plan/FlowCosts.h"
 #include "Core/Messages/Failure.h"
+#include "Core/Quality/BlockCorrelation.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -183,6 +184,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDens
   // Ghosts alone: nothing moves, and there is no energy.
   if (counted.Count() > 0)
   {
+    report.Correlation = correlateBlocks<D>(density.Source<D>(), points.Relaxed()).Value();
     withMemory({ purpose, bytes }, [&]() {
       report.Energy =
         relaxPoints<D>(settings, density, flow, points.Relaxed(), stages["relaxation"]).Energy;

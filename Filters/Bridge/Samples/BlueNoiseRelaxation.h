@@ -30,6 +30,7 @@ struct BlueNoiseRelaxation
   struct Report
   {
     std::int64_t PointsMoved = 0; // to the domain
+    double Correlation = 0.0;     // of the input with the density, see BlockCorrelation
     std::vector<double> Energy;   // none if all points are ghosts
   };
 

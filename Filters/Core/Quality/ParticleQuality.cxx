@@ -250,6 +250,7 @@ private:
     {
       double Difference = 0.0;
       double Norm = 0.0;
+      BlockCorrelation Blocks;
     };
     const Squares squares = sumInTurn(this->Group, Squares(), [&](Squares& sums) {
       this->InOrder(this->OwnBlocks.Count, stages["errors"], [&](std::int64_t i) {
@@ -259,9 +260,11 @@ private:
         const double off = found[i] - expected[i];
         sums.Difference += off * off / measure;
         sums.Norm += expected[i] * expected[i] / measure;
+        sums.Blocks.Add(found[i], expected[i], measure);
       });
     });
     this->Quality.DensityError = std::sqrt(squares.Difference / squares.Norm);
+    this->Quality.Correlation = squares.Blocks.Value();
     const double cells = numberOfCells<Dimension>(this->Grid.template Size<Dimension>());
     // Relative errors of the blocks of this rank, in their order.
     std::vector<double> errors;

@@ -9,6 +9,7 @@
 #include "BlockErrors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace RectifiedTransport
@@ -25,6 +26,39 @@ struct ParticleSample
   const std::int64_t* Order = nullptr;
 };
 
+// Sums over blocks: the mass found and the mass expected in each, in any units, and its measure.
+struct BlockCorrelation
+{
+  void Add(double found, double expected, double measure)
+  {
+    this->Blocks += 1.0;
+    this->Measure += measure;
+    this->Found += found;
+    this->Expected += expected;
+    this->FoundSquares += found * found / measure;
+    this->ExpectedSquares += expected * expected / measure;
+    this->Products += found * expected / measure;
+  }
+  // That of the densities; 0 where it may be chance: within three standard deviations of random
+  // ones.
+  double Value() const
+  {
+    const double found = this->FoundSquares - this->Found * this->Found / this->Measure;
+    const double expected = this->ExpectedSquares - this->Expected * this->Expected / this->Measure;
+    const double both = this->Products - this->Found * this->Expected / this->Measure;
+    const double value = found > 0.0 && expected > 0.0 ? both / std::sqrt(found * expected) : 0.0;
+    return value * value * this->Blocks > 9.0 ? value : 0.0;
+  }
+
+  double Blocks = 0.0;
+  double Measure = 0.0;
+  double Found = 0.0;
+  double Expected = 0.0;
+  double FoundSquares = 0.0;
+  double ExpectedSquares = 0.0;
+  double Products = 0.0;
+};
+
 struct ParticleQuality
 {
   std::int64_t Particles = 0;
@@ -34,6 +68,9 @@ struct ParticleQuality
   // The relative L2 distance between the particles' density and the given one, both averaged over
   // blocks of grid cells.
   double DensityError = 0.0;
+  // How the density of the particles goes with the given one over the blocks, from -1 to 1; 0 where
+  // it may be chance.
+  double Correlation = 0.0;
   // The relative errors of the masses of blocks whose density is more than leastOfMean.
   BlockErrors Blocks;
   double TransportCost = 0.0; // mean squared displacement, by mass
