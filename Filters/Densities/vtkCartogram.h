@@ -31,8 +31,9 @@
  * data kept. Cell data `AreaError` is a region's share of the area divided by its share of the
  * mass, less 1; `TargetArea` its area without error; `MassPerArea` its mass by its area in the
  * input. Field data `AreaErrors` has the largest absolute error after each pass, `EnlargedRegions`
- * how many regions MinimumShare enlarged. Output 1, "Graticule": lines of a regular grid over the
- * map, moved. Output 2, "Overlay": the overlay with all its data, moved.
+ * how many regions MinimumShare enlarged, `RegionsMissed` how many miss Tolerance. Output 1,
+ * "Graticule": lines of a regular grid over the map, moved. Output 2, "Overlay": the overlay with
+ * all its data, moved.
  *
  * Cost: O(Resolution^2 + points * steps) a pass. Memory: about 50 bytes a cell of the raster.
  *

@@ -120,8 +120,8 @@ public:
    * back and Poisson's equation is solved on their images; points move as the corners do,
    * interpolated. The field data `EqualAreaPasses` says how many of
    * two corrections were kept, because they made errors of areas smaller and no more cells of the
-   * density fold. A warning says if it is 0, else `AreaErrorEstimate` is NaN: it would be that of
-   * the flow alone. `FoldedCells` may rise all the same, as it counts cells of input 0. Needs
+   * density fold. A warning says if it is 0, else there is no `AreaErrorEstimate`: it would be that
+   * of the flow alone. `FoldedCells` may rise all the same, as it counts cells of input 0. Needs
    * whole tables. Default off.
    */
   vtkSetMacro(EqualizeAreas, vtkTypeBool);

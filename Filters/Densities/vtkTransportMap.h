@@ -206,9 +206,9 @@ public:
    * cells are moved back and Poisson's equation is solved on their images; samples move as the
    * corners do, interpolated. The field data `EqualAreaPasses` says how many of
    * two corrections were kept, because they made errors of areas smaller and no more cells of the
-   * density fold. A warning says if it is 0, else `AreaErrorEstimate` is NaN: it would be that of
-   * the flow alone. `FoldedCells` may rise all the same, as it counts samples. Needs
-   * whole tables. Default off.
+   * density fold. A warning says if it is 0, else there is no `AreaErrorEstimate`: it would be that
+   * of the flow alone. `FoldedCells` may rise all the same, as it counts samples. Needs whole
+   * tables. Default off.
    */
   vtkSetMacro(EqualizeAreas, vtkTypeBool);
   vtkGetMacro(EqualizeAreas, vtkTypeBool);

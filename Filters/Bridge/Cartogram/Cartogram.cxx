@@ -151,8 +151,8 @@ public:
       fail("The outline of the region ", this->Cells.Names[Index(this->Result.Crossing.front())],
         " crosses itself, so that its area is not clear; repair it, with QGIS's Fix geometries");
     }
-    addWarnings(this->Result, this->Cells.Names, this->Map.Rings(), this->Worker.Options.Tolerance,
-      this->Warnings);
+    this->Missed = addWarnings(this->Result, this->Cells.Masses, this->Cells.Names,
+      this->Map.Rings(), this->Worker.Options.Tolerance, this->Warnings);
     this->WriteRegions(place, stages["regions"]);
     writeGraticule(overlays, this->Outputs.Graticule);
     writeOverlay(overlays, this->Outputs.Overlay, stages["moved overlay"]);
@@ -326,6 +326,7 @@ private:
     this->WriteCells(output);
     addFieldValues(output, "AreaErrors", this->LargestErrors());
     addFieldValue(output, "EnlargedRegions", this->Enlarged);
+    addFieldValue(output, "RegionsMissed", static_cast<double>(this->Missed));
   }
 
   // The largest relative error of a region's area in each pass: the field data show the
@@ -417,6 +418,7 @@ private:
   std::vector<double> Before;       // the areas of the regions, in the plane of the map
   double Land = 0.0;                // their sum
   std::int32_t Enlarged = 0;
+  std::int64_t Missed = 0; // regions
   CartogramResult Result;
 };
 

@@ -9,24 +9,30 @@
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 namespace RectifiedTransport::Bridge
 {
 
-// One value for each flow.
+// One value for each flow; AreaErrorEstimate only where one of them was estimated.
 inline void addSteps(vtkDataObject* output, const std::vector<FlowReport>& flows)
 {
   std::vector<double> steps;
   std::vector<double> errors;
+  bool isEstimated = false;
   for (const FlowReport& flow : flows)
   {
     steps.push_back(flow.NumberOfSteps);
     errors.push_back(flow.AreaError);
+    isEstimated = isEstimated || !std::isnan(flow.AreaError);
   }
   addFieldValues(output, "StepsTaken", steps);
-  addFieldValues(output, "AreaErrorEstimate", errors);
+  if (isEstimated)
+  {
+    addFieldValues(output, "AreaErrorEstimate", errors);
+  }
 }
 
 // The passes of EqualizeAreas that were kept, the same on all ranks; `own` is 0 on a rank that has

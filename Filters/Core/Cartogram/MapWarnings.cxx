@@ -24,26 +24,35 @@ std::size_t indexOf(std::int32_t region)
 class MissedRegions
 {
 public:
-  MissedRegions(
-    const CartogramResult& result, const std::vector<std::string>& names, double tolerance)
+  MissedRegions(const CartogramResult& result, const std::vector<double>& masses,
+    const std::vector<std::string>& names, double tolerance)
     : Result(result)
     , Names(names)
   {
+    double missed = 0.0;
+    double all = 0.0;
     for (std::size_t i = 0; i < result.Errors.size(); ++i)
     {
       // Counts the missed regions, notes whether any of them overlaps others, and finds the worst
       // one.
       const bool isMissed = std::abs(result.Errors[i]) > tolerance;
       this->Count += isMissed ? 1 : 0;
+      missed += isMissed ? masses[i] : 0.0;
+      all += masses[i];
       this->AreOnOthers = this->AreOnOthers || (isMissed && result.Overlaps[i] > tolerance);
       this->Worst =
         std::abs(result.Errors[i]) > std::abs(result.Errors[this->Worst]) ? i : this->Worst;
     }
+    // Specks of a map would interrupt its user each time.
+    constexpr double least = 0.01;
+    this->AreWorthAWarning = missed >= least * all && this->Count > 0;
   }
+
+  std::int64_t Number() const { return this->Count; }
 
   void Add(std::vector<std::string>& warnings) const
   {
-    if (this->Count == 0)
+    if (!this->AreWorthAWarning)
     {
       return;
     }
@@ -87,6 +96,7 @@ private:
   std::int64_t Count = 0;
   std::size_t Worst = 0;
   bool AreOnOthers = false;
+  bool AreWorthAWarning = false;
 };
 
 } // namespace
@@ -106,8 +116,9 @@ bool looksLikeDegrees(const std::vector<Point<3>>& places)
   return isOnEarth && (isWide || areLatitudes);
 }
 
-void addWarnings(const CartogramResult& result, const std::vector<std::string>& names,
-  std::int64_t rings, double tolerance, std::vector<std::string>& warnings)
+std::int64_t addWarnings(const CartogramResult& result, const std::vector<double>& masses,
+  const std::vector<std::string>& names, std::int64_t rings, double tolerance,
+  std::vector<std::string>& warnings)
 {
   // Overlaps are a fault of the map, and come before errors that follow from them.
   if (result.Overlap > leastOverlap)
@@ -122,7 +133,9 @@ void addWarnings(const CartogramResult& result, const std::vector<std::string>& 
       " (the first of the region " + names[indexOf(result.FirstFolded)] +
       ") even with 4096 steps and is left out; raise Resolution or MinimumShare");
   }
-  MissedRegions(result, names, tolerance).Add(warnings);
+  const MissedRegions missed(result, masses, names, tolerance);
+  missed.Add(warnings);
+  return missed.Number();
 }
 
 } // namespace RectifiedTransport

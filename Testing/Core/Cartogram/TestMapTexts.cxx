@@ -74,6 +74,23 @@ TEST(MapTexts, RegionsHaveAreasAndMasses)
   EXPECT_EQ(warnings.back(), "1 of 4 regions (25 %) are enlarged to MinimumShare");
 }
 
+TEST(MapTexts, MissedRegionsAreAWarningFromOneInAHundredOfTheMass)
+{
+  CartogramResult result;
+  result.Errors = { 0.0, -0.05, 0.001 };
+  result.Overlaps = { 0.0, 0.0, 0.0 };
+  const std::vector<std::string> names{ "'a'", "'b'", "'c'" };
+  for (const double mass : { 0.5, 2.0 })
+  {
+    std::vector<std::string> warnings;
+    EXPECT_EQ(addWarnings(result, { 50.0, mass, 49.0 }, names, 3, 0.01, warnings), 1);
+    EXPECT_EQ(warnings.size(), mass < 1.0 ? 0u : 1u);
+  }
+  std::vector<std::string> warnings;
+  EXPECT_EQ(addWarnings(result, { 50.0, 2.0, 49.0 }, names, 3, 0.1, warnings), 0);
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST(MapTexts, RegionsAreNumberedByKeys)
 {
   RegionList regions("'mass'");

@@ -325,7 +325,7 @@ void checkEstimate(Checks& checks)
   map->Update();
   CHECK(checks, fieldValue(map->GetOutput(), "EqualAreaPasses") > 0.0);
   CHECK(checks, fieldValue(map->GetOutput(), "StepsTaken") == 4096.0);
-  CHECK(checks, std::isnan(fieldValue(map->GetOutput(), "AreaErrorEstimate")));
+  CHECK(checks, !map->GetOutput()->GetFieldData()->HasArray("AreaErrorEstimate"));
   CHECK(checks, countWarnings(messages, "AreaTolerance") == 0);
 }
 
