@@ -75,6 +75,17 @@ void vtkCollectiveAlgorithm::SetInputData(int port, vtkDataObject* input)
 }
 
 //------------------------------------------------------------------------------
+void vtkCollectiveAlgorithm::WarnOfFormerProperty(const char* names, const char* value)
+{
+  if (value && *value)
+  {
+    vtkWarningMacro("The state file is of before " << names << ", and has " << value
+                                                   << "; load the plugin in the client, too, and "
+                                                      "open it again, or set the property");
+  }
+}
+
+//------------------------------------------------------------------------------
 // A fork() copies only the calling thread. VTK's own classes, too, run serially in such a child: a
 // pool of threads that is not there would let them wait forever.
 vtkTypeBool vtkCollectiveAlgorithm::ProcessRequest(
@@ -137,8 +148,29 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     this->EndPasses();
     this->Whole->Separate().End();
     const std::unique_ptr<RankRun> run = std::move(this->Run);
-    return handleException(this, outputVector, run.get());
+    this->WasAborted = isCancelled();
+    this->Failed = !this->WasAborted;
+    if (this->WasAborted && (!run || run->IsFirst()))
+    {
+      vtkWarningMacro("The run was aborted: the output is empty until the next update");
+    }
+    const int result = handleException(this, outputVector, run.get());
+    // Before the data, an error ends the update: else they would be made all the same.
+    return this->Failed && !request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()) ? 0 : result;
   }
+}
+
+//------------------------------------------------------------------------------
+int vtkCollectiveAlgorithm::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  if (std::exchange(this->WasAborted, false))
+  {
+    this->SetAbortExecute(0); // else this run would end at once, too
+    this->Modified();
+  }
+  *time = this->GetMTime();
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -180,6 +212,7 @@ int vtkCollectiveAlgorithm::ProcessInformation(
 int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->Failed = false;
   warnOfGhostArrayType(this, inputVector);
   int result = this->ProcessPass(request, inputVector, outputVector);
   while (std::exchange(this->HasNextPass, false))

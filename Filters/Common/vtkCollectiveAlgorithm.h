@@ -70,10 +70,28 @@ public:
   ///@}
 
   /**
+   * For state files with the former name of a property, where ParaView's client has no plugin that
+   * converts them: warn if they have a value. `names` is "Now was called Former".
+   */
+  void WarnOfFormerProperty(const char* names, const char* value);
+
+  /**
    * Pass the executive's requests to the methods below.
    */
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+
+  /**
+   * Whether the last run ended with an error. Its outputs are empty then, and the executive goes on
+   * with the filters downstream.
+   */
+  bool HasFailed() const { return this->Failed; }
+
+  /**
+   * After an abort, run again at the next update, which would find the outputs up to date.
+   */
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int outputPort, vtkMTimeType* time) override;
 
 protected:
   vtkCollectiveAlgorithm();
@@ -251,6 +269,8 @@ private:
   std::unique_ptr<RectifiedTransport::Bridge::RankRun>
     Run; // during RequestData and RequestInformation
   bool HasNextPass = false;
+  bool WasAborted = false;
+  bool Failed = false;
   std::map<int, PortPolicyType> Gathered; // by port; none where ranks share the work
   bool IsAlone = false;                   // on the first rank, with gathered data
 

@@ -98,6 +98,6 @@ def update(algorithm, shapes, expected=None):
     if errors:
         text = with_place(text_of(errors[0]), shapes)
         raise (MemoryError if text.startswith("Not enough memory") else ValueError)(text)
-    if not done:
+    if not done or algorithm.HasFailed():
         raise ValueError("%s failed; vtkObject.GlobalWarningDisplayOn() lets it say why"
                          % type(algorithm).__name__)

@@ -67,13 +67,29 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, Rank
   {
     error = exception.what();
   }
-  emptyOutputs(outputs);
+  const bool isEmptied = emptyOutputs(outputs);
   error = run ? run->Fail(error) : error;
   if (!error.empty())
   {
     vtkErrorWithObjectMacro(algorithm, << messageText(error));
   }
-  return 0;
+  return isEmptied ? 1 : 0;
+}
+
+bool isCancelled()
+{
+  try
+  {
+    throw;
+  }
+  catch (const Cancelled&)
+  {
+    return true;
+  }
+  catch (...)
+  {
+    return false;
+  }
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -18,7 +18,12 @@ class RankRun;
 // Call it within catch (...) around the processing of a request. Empties the outputs and announces
 // empty extents. Any exception except Cancelled becomes one error of the algorithm, or one for all
 // ranks of `run`. Returns the return value of ProcessRequest.
+// The request succeeds unless filters downstream would read what is not there: ParaView's views
+// never look again at a pipeline whose request failed.
 int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, RankRun* run = nullptr);
+
+// Within catch (...), too: whether the run was aborted.
+bool isCancelled();
 
 } // namespace RectifiedTransport::Bridge
 

@@ -445,7 +445,9 @@ class Abort(unittest.TestCase):
                     algorithm.SetAbortExecute(1)
 
             algorithm.AddObserver("ProgressEvent", stop)
-            self.assertEqual(errors_of(algorithm), ([], []))
+            errors, warnings = errors_of(algorithm)
+            self.assertEqual(errors, [])
+            self.assertIn("The run was aborted", *warnings)
             self.assertEqual(seen, sorted(seen))
             self.assertLess(max(progress for progress in seen if progress < 1), 0.7)
             self.assertEqual(algorithm.GetDistances().GetNumberOfColumns(), 0)

@@ -139,7 +139,7 @@ class Optimal(unittest.TestCase):
             with self.subTest(name):
                 output = self.sound(make(landscape((24, 20)), Method=1))
                 self.assertEqual(field(output, "StepsTaken"), 0)
-                self.assertTrue(math.isnan(field(output, "AreaErrorEstimate")))
+                self.assertFalse(output.GetFieldData().HasArray("AreaErrorEstimate"))
 
     def test_slack(self):
         image = landscape((48, 40))
@@ -382,7 +382,7 @@ class Optimal(unittest.TestCase):
         for name, make in MAKERS.items():
             with self.subTest(name):
                 output, errors, _ = run(make(image, Method=1))
-                self.assertEqual(len(errors), 2)  # the executive says so, too
+                self.assertEqual(len(errors), 1)
                 self.assertIn("NaN", errors[0])
                 self.assertEqual(output.GetNumberOfPoints(), 0)
         filled = sampler(image, Method=1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Area-Preserving Parameterization of surfaces that are no disks: closed, with holes or handles, with one side, in
+"""Area Preserving Parameterization of surfaces that are no disks: closed, with holes or handles, with one side, in
 several components. Areas are kept as on disks, no triangle is turned over, points on seams are copies, and
 components have squares of their own. Disks are as they are without Seams, to the bit."""
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sample Surface and Area-Preserving Parameterization on what ParaView's filters make: Clip and Slice through
+"""Sample Surface and Area Preserving Parameterization on what ParaView's filters make: Clip and Slice through
 points, meshes with points twice, unused or on one line. Particles are exactly as many, their mass is the area,
 none is on a cell without area, and every cell of the input is in the output with its own figures."""
 import itertools
