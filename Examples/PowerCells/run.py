@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Divides the unit square among sites with either Shape of Equal-Mass Cells: what the cells cost, how
+"""Divides the unit square among sites with either Shape of Equal Mass Cells: what the cells cost, how
 equal they are, and how they look side by side."""
 import os
 import sys

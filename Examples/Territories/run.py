@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Divides Europe into territories of equal light at night, by either Shape of Equal-Mass Cells."""
+"""Divides Europe into territories of equal light at night, by either Shape of Equal Mass Cells."""
 import os
 import sys
 

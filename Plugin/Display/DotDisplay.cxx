@@ -2,7 +2,6 @@
 #include "Display/DotDisplay.h"
 #include "Display/ProxyTexts.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
@@ -17,7 +16,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 
@@ -103,33 +101,6 @@ double radiusOf(vtkSMSourceProxy* producer, int port)
   return radius ? radius->GetComponentRange(0)[0] : 0.0;
 }
 
-// What the radius depends on.
-struct Spread
-{
-  explicit Spread(vtkPVDataInformation* data)
-    : Count(data->GetNumberOfPoints())
-  {
-    data->GetBounds(this->Bounds.data());
-  }
-
-  // Particles that move keep their size, unless it is quite wrong for where they are.
-  bool IsLike(const Spread& other) const
-  {
-    constexpr double factor = 2.0;
-    const double own = this->LongestSide();
-    const double others = other.LongestSide();
-    return this->Count == other.Count && own <= factor * others && others <= factor * own;
-  }
-
-  double LongestSide() const
-  {
-    return std::max(0.0, vtkBoundingBox(this->Bounds.data()).GetMaxLength());
-  }
-
-  vtkTypeInt64 Count;
-  std::array<double, 6> Bounds{};
-};
-
 class DotFollower : public vtkCommand
 {
 public:
@@ -137,17 +108,17 @@ public:
 
   static DotFollower* New() { return new DotFollower; }
 
-  void Follow(vtkSMSourceProxy* producer, int port, vtkSMPVRepresentationProxy* representation)
+  void Follow(vtkSMSourceProxy* producer, int port, vtkSMViewProxy* view,
+    vtkSMPVRepresentationProxy* representation)
   {
     this->Port = port;
     this->Producer = producer;
     this->Representation = representation;
-    this->View = vtkSMViewProxy::FindView(representation);
-    const Spread spread(this->Data());
-    this->IsFlat = dimensionOf(spread.Bounds.data()) < 3;
+    this->View = view;
+    this->IsFlat = dimensionOf(this->Data()->GetBounds()) < 3;
     vtkSMPropertyHelper(representation, "ShaderPreset")
       .Set(this->IsFlat ? "Plain circle" : "Sphere");
-    this->UseRadius(spread);
+    this->UseRadius();
     producer->AddObserver(vtkCommand::UpdateDataEvent, this);
     if (this->IsFlat && this->View)
     {
@@ -188,12 +159,11 @@ private:
 
   void FollowData()
   {
-    const Spread spread(this->Data());
     vtkSMPropertyHelper radius(this->Representation, "GaussianRadius");
     if (textOf(this->Representation, "Representation") == typeOfDots &&
-      radius.GetAsDouble() == this->Radius && !spread.IsLike(this->Known))
+      radius.GetAsDouble() == this->Radius)
     {
-      this->UseRadius(spread);
+      this->UseRadius();
       this->Representation->UpdateVTKObjects();
     }
   }
@@ -207,10 +177,10 @@ private:
     }
   }
 
-  void UseRadius(const Spread& spread)
+  void UseRadius()
   {
-    this->Known = spread;
-    const double radius = spread.Count > 0 ? radiusOf(this->Producer, this->Port) : 0.0;
+    const bool isEmpty = this->Data()->GetNumberOfPoints() == 0;
+    const double radius = isEmpty ? 0.0 : radiusOf(this->Producer, this->Port);
     // A view of a single place is 1 wide.
     this->Radius = radius > 0.0 ? radius : 0.05;
     vtkSMPropertyHelper(this->Representation, "GaussianRadius").Set(this->Radius);
@@ -230,7 +200,6 @@ private:
   vtkWeakPointer<vtkSMSourceProxy> Producer;
   vtkWeakPointer<vtkSMPVRepresentationProxy> Representation;
   vtkWeakPointer<vtkSMViewProxy> View;
-  Spread Known{ vtkSmartPointer<vtkPVDataInformation>::New() };
   // What was set here; if the values are others, they are the user's.
   double Radius = 0.0;
   Rgb Colour = black;
@@ -238,11 +207,12 @@ private:
 
 } // namespace
 
-void showDots(vtkSMSourceProxy* producer, int port, vtkSMPVRepresentationProxy* representation)
+void showDots(vtkSMSourceProxy* producer, int port, vtkSMViewProxy* view,
+  vtkSMPVRepresentationProxy* representation)
 {
   representation->SetRepresentationType(typeOfDots);
   vtkNew<DotFollower> follower;
-  follower->Follow(producer, port, representation);
+  follower->Follow(producer, port, view, representation);
 }
 
 } // namespace RectifiedTransport

@@ -5,6 +5,7 @@
 
 class vtkSMPVRepresentationProxy;
 class vtkSMSourceProxy;
+class vtkSMViewProxy;
 
 namespace RectifiedTransport
 {
@@ -16,8 +17,9 @@ int dimensionOf(const double bounds[6]);
 
 // Particles in space are spheres. Flat ones are plain circles without an array's colours, dark on a
 // light background and light on a dark one. The radius is from their spacing. All this follows the
-// background, and the radius the number and the bounds of the particles, until the user changes it.
-void showDots(vtkSMSourceProxy* producer, int port, vtkSMPVRepresentationProxy* representation);
+// background, and the radius the particles, until the user changes it.
+void showDots(vtkSMSourceProxy* producer, int port, vtkSMViewProxy* view,
+  vtkSMPVRepresentationProxy* representation);
 
 } // namespace RectifiedTransport
 

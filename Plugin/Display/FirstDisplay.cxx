@@ -168,12 +168,12 @@ bool showsDots(vtkPVXMLElement* element)
   return type && std::string(type) == "Dots";
 }
 
-void apply(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
+void apply(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port, vtkSMViewProxy* view,
   vtkSMPVRepresentationProxy* representation)
 {
   if (showsDots(element))
   {
-    showDots(producer, port, representation);
+    showDots(producer, port, view, representation);
   }
   else if (const char* type = element->GetAttribute("type"))
   {
@@ -186,6 +186,38 @@ void apply(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
     setProperty(representation, set->GetAttribute("property"), set->GetAttribute("values"));
   }
   representation->UpdateVTKObjects();
+}
+
+bool isBehindDots(vtkSMProxy* consumer, vtkSMViewProxy* view)
+{
+  for (unsigned int i = 0; i < consumer->GetNumberOfProducers(); ++i)
+  {
+    vtkSMProxy* proxy = consumer->GetProducerProxy(i);
+    auto* source = proxy ? vtkSMSourceProxy::SafeDownCast(proxy->GetTrueParentProxy()) : nullptr;
+    for (unsigned int port = 0; source && port < source->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkSMProxy* shown = view->FindRepresentation(source, port);
+      if (shown && textOf(shown, "Representation") == typeOfDots)
+      {
+        return true;
+      }
+    }
+    if (source && isBehindDots(source, view))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// What comes of particles by other filters and from files would be dots of a pixel.
+bool areParticles(vtkSMSourceProxy* producer, int port, vtkSMViewProxy* view)
+{
+  vtkPVDataInformation* data = producer->GetDataInformation(static_cast<unsigned int>(port));
+  const vtkTypeInt64 cells = data->GetNumberOfCells();
+  return !data->IsCompositeDataSet() && data->DataSetTypeIsA("vtkPointSet") &&
+    (cells == 0 || cells == data->GetNumberOfPoints()) && data->GetNumberOfPoints() > 0 &&
+    (data->GetArrayInformation("SeedId", vtkDataObject::POINT) || isBehindDots(producer, view));
 }
 
 // Follows the producer's properties, which say what the next data will be. Colours take their range
@@ -222,7 +254,8 @@ public:
       }
       if (showsDots(this->Applied) && !std::exchange(this->HasDots, true))
       {
-        showDots(producer, this->Port, this->Representation);
+        vtkSMViewProxy* view = vtkSMViewProxy::FindView(this->Representation);
+        showDots(producer, this->Port, view, this->Representation);
       }
       return;
     }
@@ -277,7 +310,8 @@ private:
 
 } // namespace
 
-void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* proxy)
+void applyFirstDisplay(
+  vtkSMSourceProxy* producer, int port, vtkSMViewProxy* view, vtkSMProxy* proxy)
 {
   auto* representation = vtkSMPVRepresentationProxy::SafeDownCast(proxy);
   if (!representation)
@@ -285,13 +319,17 @@ void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* proxy)
     // The view is no render view.
     if (vtkPVXMLElement* element = elementFor(producer, port))
     {
-      showScatter(element, producer, port, proxy);
+      showScatter(element, producer, port, view, proxy);
     }
     return;
   }
   if (vtkPVXMLElement* element = elementFor(producer, port))
   {
-    apply(element, producer, port, representation);
+    apply(element, producer, port, view, representation);
+  }
+  else if (hintElements(producer, elementName).empty() && areParticles(producer, port, view))
+  {
+    showDots(producer, port, view, representation);
   }
   if (followsProperties(producer, port))
   {

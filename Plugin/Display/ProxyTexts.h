@@ -43,6 +43,13 @@ inline std::vector<vtkPVXMLElement*> hintElements(
   return found;
 }
 
+// Whether it stands in the plugin's menu.
+inline bool isOfPlugin(vtkSMProxy* proxy)
+{
+  const std::vector<vtkPVXMLElement*> menus = hintElements(proxy, "ShowInMenu");
+  return !menus.empty() && std::string(menus[0]->GetAttributeOrEmpty("category")) == "Transport";
+}
+
 // The value of a property; empty without one.
 inline std::string textOf(vtkSMProxy* proxy, const char* property)
 {

@@ -38,8 +38,8 @@ void setTexts(vtkSMProxy* proxy, const char* name, const std::vector<std::string
 
 } // namespace
 
-void showScatter(
-  vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port, vtkSMProxy* representation)
+void showScatter(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
+  vtkSMViewProxy* view, vtkSMProxy* representation)
 {
   const char* x = element->GetAttribute("x");
   const char* y = element->GetAttribute("y");
@@ -63,13 +63,10 @@ void showScatter(
   setTexts(representation, "SeriesMarkerStyle", { y, circle });
   setTexts(representation, "SeriesMarkerSize", { y, size });
   representation->UpdateVTKObjects();
-  if (vtkSMViewProxy* view = vtkSMViewProxy::FindView(representation))
-  {
-    setTexts(view, "BottomAxisTitle", { x });
-    setTexts(view, "LeftAxisTitle", { y });
-    vtkSMPropertyHelper(view, "ShowLegend", true).Set(0);
-    view->UpdateVTKObjects();
-  }
+  setTexts(view, "BottomAxisTitle", { x });
+  setTexts(view, "LeftAxisTitle", { y });
+  vtkSMPropertyHelper(view, "ShowLegend", true).Set(0);
+  view->UpdateVTKObjects();
 }
 
 } // namespace RectifiedTransport

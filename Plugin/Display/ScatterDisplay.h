@@ -6,14 +6,15 @@
 class vtkPVXMLElement;
 class vtkSMProxy;
 class vtkSMSourceProxy;
+class vtkSMViewProxy;
 
 namespace RectifiedTransport
 {
 
 // The columns `x` and `y` of the element are the coordinates of the points and the titles of the
 // axes; no other column is shown. Nothing where the representation is not one of a chart.
-void showScatter(
-  vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port, vtkSMProxy* representation);
+void showScatter(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
+  vtkSMViewProxy* view, vtkSMProxy* representation);
 
 } // namespace RectifiedTransport
 

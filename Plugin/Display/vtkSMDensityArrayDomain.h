@@ -8,7 +8,7 @@
  * else of the cells, else the first array that all blocks have, else the first one. It never takes
  * ids or flags, such as GlobalNodeId, nor text, which the user may choose.
  *
- * Where the panel changes the input, as the Domain of Equal-Mass Cells, it takes the first array of
+ * Where the panel changes the input, as the Domain of Equal Mass Cells, it takes the first array of
  * the new input if that has not the chosen one.
  */
 #ifndef vtkSMDensityArrayDomain_h

@@ -3,6 +3,8 @@
 
 #include "Display/FirstContour.h"
 #include "Display/FirstDisplay.h"
+#include "Display/ParticleReading.h"
+#include "Display/PluginTrace.h"
 #include "Display/vtkSMTransportMorphProxy.h"
 
 #include "vtkNew.h"
@@ -12,6 +14,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkVersion.h"
 
+#include <string>
+#include <vector>
+
 vtkStandardNewMacro(vtkTransportDisplayController);
 
 vtkSMProxy* vtkTransportDisplayController::Show(
@@ -19,12 +24,23 @@ vtkSMProxy* vtkTransportDisplayController::Show(
 {
   // Without a view the superclass chooses one, and calls this function with it.
   const bool isFirst = producer && view && !view->FindRepresentation(producer, outputPort);
+  this->ShownFirst = isFirst ? producer : nullptr;
+  this->ShownPort = outputPort;
+  this->ShownIn = view;
   vtkSMProxy* shown = Superclass::Show(producer, outputPort, view, representationType);
-  if (isFirst && shown)
-  {
-    RectifiedTransport::applyFirstDisplay(producer, outputPort, shown);
-  }
+  this->ShownFirst = nullptr;
   return shown;
+}
+
+// Within Show a trace writes what is set here, and no more after it.
+bool vtkTransportDisplayController::RegisterRepresentationProxy(vtkSMProxy* proxy)
+{
+  const bool isRegistered = Superclass::RegisterRepresentationProxy(proxy);
+  if (isRegistered && this->ShownFirst)
+  {
+    RectifiedTransport::applyFirstDisplay(this->ShownFirst, this->ShownPort, this->ShownIn, proxy);
+  }
+  return isRegistered;
 }
 
 bool vtkTransportDisplayController::UnRegisterProxy(vtkSMProxy* proxy)
@@ -39,14 +55,25 @@ bool vtkTransportDisplayController::UnRegisterProxy(vtkSMProxy* proxy)
   return isDone;
 }
 
+bool vtkTransportDisplayController::PreInitializeProxy(vtkSMProxy* proxy)
+{
+  RectifiedTransport::tracePlugin(proxy);
+  return Superclass::PreInitializeProxy(proxy);
+}
+
 bool vtkTransportDisplayController::PostInitializeProxy(vtkSMProxy* proxy)
 {
-  const bool isContour =
-    proxy && RectifiedTransport::isUnsetContour(proxy, this->GetInitializationTime(proxy));
+  const vtkMTimeType time = proxy ? this->GetInitializationTime(proxy) : 0;
+  const bool isContour = proxy && RectifiedTransport::isUnsetContour(proxy, time);
+  const std::vector<std::string> unset = RectifiedTransport::unsetReading(proxy, time);
   const bool isInitialized = Superclass::PostInitializeProxy(proxy);
   if (isContour && isInitialized)
   {
     RectifiedTransport::applyFirstContour(proxy);
+  }
+  if (isInitialized && !unset.empty())
+  {
+    RectifiedTransport::readAsParticles(proxy, unset);
   }
   return isInitialized;
 }

@@ -8,8 +8,9 @@
  * colour only by the active scalars. This class replaces ParaView's controller in the client's
  * object factory. It shows an output as that one does, then follows the FirstDisplay elements in
  * the hints of the filter's proxy. It initialises a Contour as that one does, then follows the
- * FirstContour elements. Proxies without them are treated as before. When a morph is deleted, the
- * times of what it was made of come back.
+ * FirstContour elements. Proxies without them are treated as before. A filter of particles begins
+ * with what these say of their density. A trace loads the plugin before the first of its filters.
+ * When a morph is deleted, the times of what it was made of come back.
  *
  * @sa vtkSMParaViewPipelineControllerWithRendering
  */
@@ -28,6 +29,8 @@ public:
   using Superclass::Show;
   vtkSMProxy* Show(vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view,
     const char* representationType) override;
+  bool RegisterRepresentationProxy(vtkSMProxy* proxy) override;
+  bool PreInitializeProxy(vtkSMProxy* proxy) override;
   bool PostInitializeProxy(vtkSMProxy* proxy) override;
 
   using Superclass::UnRegisterProxy;
@@ -38,6 +41,11 @@ protected:
   ~vtkTransportDisplayController() override = default;
 
 private:
+  // During Show, of an output that the view has not shown yet.
+  vtkSMSourceProxy* ShownFirst = nullptr;
+  int ShownPort = 0;
+  vtkSMViewProxy* ShownIn = nullptr;
+
   vtkTransportDisplayController(const vtkTransportDisplayController&) = delete;
   void operator=(const vtkTransportDisplayController&) = delete;
 };

@@ -45,7 +45,7 @@ def filter_pages(plugin):
                 if proxy.find("Hints/ShowInMenu") is None:
                     continue
                 label = proxy.get("label")
-                pages.append(Page(re.sub("[ -]", "", label) + ".md",
+                pages.append(Page(label.replace(" ", "") + ".md",
                                   "%s.%s.html" % (group.get("name"), proxy.get("name")), label,
                                   proxy.find("Documentation").get("short_help"),
                                   group.get("name")))

@@ -5,6 +5,7 @@
 
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
+#include "pqPropertyWidgetDecorator.h"
 #include "pqServerManagerModel.h"
 
 #include "vtkCommand.h"
@@ -57,12 +58,27 @@ vtkPVArrayInformation* chosenArray(vtkSMProperty* array)
     : data->GetArrayInformation(name, association);
 }
 
+class ChoiceDecorator : public pqPropertyWidgetDecorator
+{
+public:
+  explicit ChoiceDecorator(pqDensityComponentWidget* widget)
+    : pqPropertyWidgetDecorator(nullptr, widget)
+    , Widget(widget)
+  {
+  }
+  bool canShowWidget(bool) const override { return this->Widget->hasChoice(); }
+
+private:
+  pqDensityComponentWidget* Widget;
+};
+
 } // namespace
 
 pqDensityComponentWidget::pqDensityComponentWidget(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parentObject)
   : Superclass(proxy, parentObject)
   , List(new QComboBox(this))
+  , Choices(new ChoiceDecorator(this))
 {
   this->setProperty(property);
   this->setChangeAvailableAsChangeFinished(true);
@@ -129,6 +145,8 @@ void pqDensityComponentWidget::updateList()
     this->List->addItem(tr("%1 (not in the array)").arg(this->Component), this->Component);
   }
   this->List->setCurrentIndex(this->List->findData(this->Component));
+  this->HasChoice = count != 1 || this->Component != RectifiedTransport::AutoComponent;
+  Q_EMIT this->Choices->visibilityChanged();
 }
 
 void pqDensityComponentWidget::take(int row)

@@ -8,6 +8,7 @@
 #include "pqPropertyWidget.h"
 
 class QComboBox;
+class pqPropertyWidgetDecorator;
 
 class pqDensityComponentWidget : public pqPropertyWidget
 {
@@ -20,6 +21,9 @@ public:
 
   int component() const { return this->Component; }
   void setComponent(int component);
+
+  // An array of one component leaves none, unless another one is set already.
+  bool hasChoice() const { return this->HasChoice; }
 
 Q_SIGNALS:
   void componentChanged();
@@ -34,6 +38,8 @@ private:
   Q_DISABLE_COPY(pqDensityComponentWidget)
 
   QComboBox* List;
+  pqPropertyWidgetDecorator* Choices;
+  bool HasChoice = true;
   int Component = -1;
 };
 

@@ -133,7 +133,7 @@ def stipple(image: ArrayLike, n: int, iterations: int = 50, *, invert: bool = Tr
 
 def cells(sites: ArrayLike, density: ArrayLike, *, spacing: Numbers = 1.0, origin: Numbers = 0.0,
           **properties: Any) -> Cells:
-    """A domain divided among sites into parts of equal mass, by Equal-Mass Cells
+    """A domain divided among sites into parts of equal mass, by Equal Mass Cells
     (vtkEqualMassCells).
 
     sites       (number, 2) or (number, 3), as many coordinates as the density has axes, in the unit

@@ -42,7 +42,7 @@ JOBS = (
      ("step2D/256", "step3D/128")),
     ("Density Barycenter: 5 × 5 barycenters of four shapes, 256², 65,536 particles",
      "Barycenters/%s", "filter"),
-    ("Equal-Mass Cells: 1024 sites, 512², 1024²", "Filters/cells/%s", (512, 1024)),
+    ("Equal Mass Cells: 1024 sites, 512², 1024²", "Filters/cells/%s", (512, 1024)),
     ("Solid Density: 50,000 triangles, `Resolution` 64, 128, 256", "Solid/50000/%s",
      (64, 128, 256)),
     ("Solid Density: 200,000 and 800,000 triangles, `Resolution` 128", "Solid/%s/128",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points and a density: Density-Equalizing Warp, Transport Quality and Relax Blue Noise.
+// Points and a density: Density Equalizing Warp, Transport Quality and Relax Blue Noise.
 #include "DrawnInputs.h"
 #include "Kinds.h"
 #include "OutputChecks.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Area-Preserving Parameterization and Sample Surface.
+// Area Preserving Parameterization and Sample Surface.
 #include "DrawnInputs.h"
 #include "Kinds.h"
 #include "OutputChecks.h"

@@ -123,6 +123,7 @@ def build(copy, folder, meshes, jobs):
             ["cmake", "-S", copy, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
              "-DPython3_EXECUTABLE=/usr/bin/python3", f"-DCMAKE_CXX_FLAGS=-include {copy}/mutation.h",
              "-DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=ON", "-DRectifiedTransport_BUILD_TESTING=ON",
+             "-DRectifiedTransport_UNITY_BUILD=ON",
              f"-DRectifiedTransport_MESHES={meshes}"],
             check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", folder, "-j", str(jobs)], check=True,

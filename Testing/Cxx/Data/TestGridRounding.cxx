@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of cells where sides are no whole multiples of each other: pixels as near to cubes as
-// whole numbers allow (Equal-Mass Cells), as many cubes as cover a solid (Solid Density).
+// whole numbers allow (Equal Mass Cells), as many cubes as cover a solid (Solid Density).
 #include "CellsTest.h"
 #include "SolidTest.h"
 

@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image
 from rt_checkerboard import (RECTANGLE, SQUARE, is_checkered, look_at, parameterized, picture,
                              tones)
-from rt_testing import (OUTPUT, SOURCE, density_image, load_plugin, main, need_display, points_in,
+from rt_testing import (OUTPUT, SOURCE, Listener, density_image, load_plugin, main, need_display, points_in,
                         producer)
 
 OPENS = os.path.join(os.path.dirname(__file__), "checkerboard_script.py")
@@ -148,8 +148,7 @@ class FirstDisplay(unittest.TestCase):
         simple.LoadPalette("BlueGrayBackground")
 
     def test_radius_follows_the_spacing(self):
-        """Half the distance of neighbours, again where there are more particles; not that of a user, and
-        not while they move."""
+        """Half the distance of neighbours, again where there are others; not that of a user."""
         seeds = simple.UniformSeeds(Bounds=[0, 8, 0, 8, 0, 0], NumberOfPoints=64, Pattern="Lattice")
         shown = self.shown(seeds)
         self.assertAlmostEqual(shown.GaussianRadius, 0.5)
@@ -164,12 +163,18 @@ class FirstDisplay(unittest.TestCase):
         seeds.UpdatePipeline()
         self.assertEqual(shown.GaussianRadius, 0.7)
 
+    def test_radius_follows_the_points(self):
         sampler = self.photograph(NumberOfParticles=500)
-        shown = self.shown(sampler)
-        radius = shown.GaussianRadius
-        sampler.FlowTime = 0.5
-        sampler.UpdatePipeline()
-        self.assertEqual(shown.GaussianRadius, radius)
+        relaxed = simple.RelaxBlueNoise(sampler, Density=sampler.Input, MaximumIterations=2)
+        shown = self.shown(relaxed)
+        before = shown.GaussianRadius
+        for filter_ in sampler, relaxed:
+            filter_.InvertDensity = 0
+        relaxed.UpdatePipeline()
+        other = simple.CreateView("RenderView")
+        self.addCleanup(simple.Delete, other)
+        self.assertNotEqual(shown.GaussianRadius, before)
+        self.assertEqual(shown.GaussianRadius, simple.Show(relaxed, other).GaussianRadius)
 
     def test_particles_in_space_are_spheres(self):
         shown = self.shown(simple.UniformSeeds(Dimension=3, NumberOfPoints=512, Pattern="Lattice"))
@@ -319,6 +324,48 @@ class FirstDisplay(unittest.TestCase):
 
     def test_other_sources_are_shown_as_before(self):
         self.assertEqual(self.shown(simple.Wavelet()).Representation, "Outline")
+        vertices = simple.MaskPoints(simple.Sphere(), GenerateVertices=1, SingleVertexPerCell=1)
+        self.assertEqual(self.shown(vertices).Representation, "Surface")
+
+    def test_filters_of_particles_read_as_these(self):
+        """What the particles say of their density, in filters that nobody has set; and a warning where the
+        density is another one."""
+        for update in (True, False):
+            sampler = self.photograph(NumberOfParticles=2000, Component=1, ValidRange=[0, 250])
+            if update:
+                sampler.UpdatePipeline()
+            for make in (simple.RelaxBlueNoise, simple.TransportQuality, simple.DensityEqualizingWarp):
+                made = make(sampler, Density=sampler.Input)
+                self.assertEqual((made.InvertDensity, made.Component, list(made.ValidRange)),
+                                 (1, 1, [0, 250]), (update, made.GetXMLLabel()))
+                own = make(sampler, Density=sampler.Input, Component=2)
+                self.assertEqual((own.InvertDensity, own.Component), (1, 2))
+                other = make(sampler, Density=simple.Wavelet(WholeExtent=[0, 9, 0, 9, 0, 0]))
+                self.assertEqual((other.InvertDensity, other.Component), (0, -1))
+        for make in (simple.RelaxBlueNoise, simple.TransportQuality):
+            for inverted, count in ((1, 0), (0, 1)):
+                made = make(sampler, Density=sampler.Input)
+                made.InvertDensity = inverted
+                reported = Listener(made.GetClientSideObject())
+                made.UpdatePipeline()
+                found = [line for line in reported.warnings if "switch InvertDensity on" in line]
+                self.assertEqual(len(found), count, reported.warnings)
+
+    def test_what_comes_of_particles_is_dots(self):
+        sampler = self.photograph(NumberOfParticles=500)
+        path = os.path.join(OUTPUT, "particles.vtp")
+        simple.SaveData(path, sampler)
+        seeds = simple.UniformSeeds(NumberOfPoints=200)  # without SeedId
+        self.shown(seeds)
+        for source in (
+                simple.Threshold(sampler, Scalars=["POINTS", "SeedId"], LowerThreshold=0, UpperThreshold=250),
+                simple.Calculator(sampler, Function="SeedId"), simple.Clip(seeds),
+                simple.Transform(simple.MaskPoints(seeds, OnRatio=2)),
+                simple.XMLPolyDataReader(FileName=[path])):
+            with self.subTest(source.GetXMLLabel()):
+                shown = self.shown(source)
+                self.assert_like(shown, "Point Gaussian", "")
+                self.assertEqual(shown.ShaderPreset, "Plain circle")
 
     def test_views_of_other_kinds(self):
         points = producer(simple, points_in(density_image((5, 4)), 10))

@@ -15,7 +15,7 @@ from rt_testing import Listener, connect_inputs, density_image, main, points_in,
 WITHOUT = {"Bounds", "ValidRange"}
 # A slider of 100 pixels has steps of a hundredth of this.
 LONGEST_SLIDER = 100000
-# What counts for Equal-Mass Cells with Measure Density only.
+# What counts for Equal Mass Cells with Measure Density only.
 DENSITY = {"Component", "DensityResolution", "NegativeValues", "NaNValues"}
 
 

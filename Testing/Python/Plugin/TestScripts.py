@@ -28,6 +28,22 @@ dots = FindSource('Dots')
 dots.UpdatePipeline()
 print('%d dots' % dots.GetDataInformation().GetNumberOfPoints())
 """
+INTERRUPT = """
+import os, threading
+image = Wavelet(WholeExtent=[-200, 200, -200, 200, 0, 0])
+dots = RelaxBlueNoise(SampleDensity(image, NumberOfParticles=2000), Density=image,
+                      MaximumIterations=100000, Tolerance=0)
+dots.Input.UpdatePipeline()
+threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    update(dots)
+except KeyboardInterrupt:
+    print('interrupted')
+print('%d dots' % dots.GetDataInformation().GetNumberOfPoints())
+dots.MaximumIterations = 1
+dots.UpdatePipeline()
+print('%d dots' % dots.GetDataInformation().GetNumberOfPoints())
+"""
 # A server that starts anew forgets the atoms that clients have made.
 ATOM = """
 import ctypes
@@ -71,17 +87,29 @@ class Scripts(unittest.TestCase):
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
                               env={**os.environ, **environment}).stdout
 
-    def test_scripts(self):
-        for name in "trace.py", "state.py":
-            with self.subTest(name):
-                with open(os.path.join(self.folder, name), encoding="utf-8") as file:
-                    text = file.read() + COUNT
-                self.assertNotIn("LoadPlugin", text)
-                self.assertIn("name 'SampleDensity' is not defined", self.run_script(text))
-                self.assertIn("50 dots", self.run_script(text, **FOLDER))
-                self.assertEqual(text.count(IMPORT), 1)
-                self.assertIn("50 dots",
-                              self.run_script(text.replace(IMPORT, IMPORT + line_of_page())))
+    def read(self, name):
+        with open(os.path.join(self.folder, name), encoding="utf-8") as file:
+            return file.read() + COUNT
+
+    def test_trace(self):
+        text = self.read("trace.py")
+        self.assertEqual(text.count(PLUGIN), 1, text)
+        self.assertIn("50 dots", self.run_script(text))
+
+    def test_state(self):
+        text = self.read("state.py")
+        self.assertNotIn("LoadPlugin", text)
+        self.assertIn("name 'SampleDensity' is not defined", self.run_script(text))
+        self.assertIn("50 dots", self.run_script(text, **FOLDER))
+        self.assertEqual(text.count(IMPORT), 1)
+        self.assertIn("50 dots", self.run_script(text.replace(IMPORT, IMPORT + line_of_page())))
+
+    def test_interrupt(self):
+        """Ctrl+C ends the run alone, and the next one runs, with the lines of the page."""
+        with open(os.path.join(SOURCE, "Documentation", "Server.md"), encoding="utf-8") as file:
+            lines, = re.findall(r"^```\n(import signal.*?)```$", file.read(), re.MULTILINE | re.DOTALL)
+        printed = self.run_script(IMPORT + line_of_page() + lines + INTERRUPT)
+        self.assertRegex(printed, r"(?s)interrupted.*0 dots.*2000 dots")
 
     @unittest.skipUnless(shutil.which("xvfb-run"), "needs xvfb-run")
     def test_display(self):

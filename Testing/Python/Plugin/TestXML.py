@@ -254,7 +254,7 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 listed = next((child for child in prop.element
-                               if child.tag in ("ArrayListDomain", "DensityArrayDomain")), None)
+                               if child.tag == "ArrayListDomain"), None)
                 if listed is None:
                     continue
                 self.assertEqual(prop.command, "SetInputArrayToProcess")
@@ -422,7 +422,7 @@ class XML(unittest.TestCase):
 
     def test_flow_is_shown_where_it_moves_points(self):
         for proxy in proxies():
-            if proxy.label not in ("Sample Density", "Transport Map", "Density-Equalizing Warp"):
+            if proxy.label not in ("Sample Density", "Transport Map", "Density Equalizing Warp"):
                 continue
             backward = {"Direction": 1} if "Direction" in proxy.properties else {}
             for name, values in OF_FLOW.items():
@@ -435,7 +435,7 @@ class XML(unittest.TestCase):
                         self.assertEqual(one != other, method == 0)
 
     def test_tolerance_is_shown_where_it_sets_steps(self):
-        proxy = next(proxy for proxy in proxies() if proxy.label == "Density-Equalizing Warp")
+        proxy = next(proxy for proxy in proxies() if proxy.label == "Density Equalizing Warp")
         for shown, values in ((True, {}), (True, {"Integrator": 2}), (False, {"NumberOfSteps": 32}),
                               (False, {"Integrator": 3})):
             with self.subTest(**values):

@@ -6,8 +6,7 @@ import sys
 
 from paraview import simple
 from rt_checkerboard import RECTANGLE, is_checkered, look_at, parameterized, picture, tones
-from rt_filters import FILTERS
-from rt_proxies import proxies
+from server_filters import made_filters
 
 simple.Connect("localhost", int(sys.argv[1]))
 for remote in (True, False):
@@ -41,22 +40,9 @@ def check(name, proxy, prop, wrong, right):
     print("CHECK", name, [count > 0 for count in counts], flush=True)
 
 
-def wavelet():
-    return simple.Wavelet(WholeExtent=[-4, 4] * 3)
-
-
-SOURCES = {"density": wavelet, "densities": lambda: [wavelet(), wavelet()],
-           "points": simple.Sphere, "mesh": simple.Sphere, "image": wavelet,
-           "solid": simple.Sphere, "disk": simple.Plane,
-           "map": lambda: simple.Calculator(Input=simple.Plane(), AttributeType="Cell Data",
-                                            ResultArrayName="Mass", Function="3")}
-SHORT = dict(NegativeValues="Clamp", NumberOfSteps=2)
-PROPERTIES = {proxy.label: proxy.properties for proxy in proxies()}
-for filter_ in FILTERS:
+for filter_, made in made_filters(simple):
     if not filter_.gives_table:  # which no view of pictures shows
-        check(filter_.name, filter_.make(simple, SOURCES, **{
-            name: value for name, value in SHORT.items() if name in PROPERTIES[filter_.label]}),
-            *filter_.refused)
+        check(filter_.name, made, *filter_.refused)
 view = simple.CreateView("RenderView")
 view.RemoteRenderThreshold = 0  # the server draws
 simple.Show(parameterized(simple), view)

@@ -5,11 +5,11 @@ a new filter or property is tested by a new entry.
 
 Imports nothing but the standard library: scripts on ranks and in bare systems use it, too.
 """
-import re
 from typing import NamedTuple
 
 POINTS = {"view": "RenderView", "type": "Point Gaussian"}
 DOTS = {"type": "Dots"}
+READING = ("ReadAsParticles", {})
 PARTICLES = [("RepresentationType", POINTS), ("FirstDisplay", DOTS)]
 VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density"})
 BLEND = [("View", {"type": "None", "port": "1"}),
@@ -60,7 +60,7 @@ class Filter(NamedTuple):
     @property
     def name(self):
         """In Python."""
-        return re.sub("[ -]", "", self.label)
+        return self.label.replace(" ", "")
 
     @property
     def ports(self):
@@ -101,7 +101,7 @@ FILTERS = [
                       SampleDimensions=[20, 30, 1], Integrator="Adaptive", Tolerance=0.5, Certify=1),
            shown=[("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
                   ("FirstDisplay", {"array": "Displacement"})]),
-    Filter("Equal-Mass Cells", "vtkEqualMassCells",
+    Filter("Equal Mass Cells", "vtkEqualMassCells",
            {"Input": "mesh"}, {"Domain": "density"}, ["Labels", "Sites", "Outlines", "Polygons"],
            panel=["Domain", "Measure", "Resolution", "Shape", "NormExponent", "CostExponent",
                   *DENSITY_PANEL, *FLOW_PANEL, "Threading"],
@@ -140,6 +140,7 @@ FILTERS = [
            choices={"Method": ["Linearized", "Certified"]}, one_box=True,
            shown=[("View", {"type": "None", "port": "0"}), ("View", {"type": "None", "port": "1"}),
                   ("View", {"type": "XYPointChartView", "port": "2"}),
+                  ("PipelineIcon", {"name": "XYChartView", "port": "2"}),
                   ("FirstDisplay", {"port": "2", "type": "Scatter", "x": "Coordinate0", "y": "Coordinate1"})], gives_table=True),
     Filter("Transport Temporal Interpolator", "vtkTransportTemporalInterpolator",
            {"Input": "density"}, outputs=["Density", "Particles"],
@@ -161,12 +162,12 @@ FILTERS = [
                       Boundary="Drop", Association="Cells"),
            shown=[VOLUME]),
     Filter("Solid Density", "vtkSolidDensity", {"Input": "solid"},
-           panel=["Resolution", "Supersampling", "Padding", "Association", "Threading"],
+           panel=["Resolution", "Supersampling", "Padding", "Association", "OpenSurfaces", "Threading"],
            refused=("Supersampling", 99, 2), quick=dict(Resolution=12),
            saved=dict(Resolution=20, Supersampling=3, Padding=0.25, Association="Cells",
-                      Threading="Serial"),
+                      OpenSurfaces="WindingNumber", Threading="Serial"),
            shown=[VOLUME, ("FirstContour", {"array": "Density", "value": "0.5"})], gives_figures=False),
-    Filter("Area-Preserving Parameterization", "vtkAreaPreservingParameterization", {"Input": "disk"},
+    Filter("Area Preserving Parameterization", "vtkAreaPreservingParameterization", {"Input": "disk"},
            outputs=["Surface", "Flat"], panel=["Seams", "Resolution", "Polish", "Corners", "Threading"],
            refused=("Resolution", 0, 12), quick=dict(Resolution=32),
            saved=dict(Seams="None", Corners=[2, 13, 39, 21], Resolution=24, Polish=0, Threading="Serial"),
@@ -191,27 +192,27 @@ FILTERS = [
            quick=dict(NumberOfPoints=40, Dimension=3),
            saved=dict(Bounds=[0, 511, 0, 511, 0, 9], NumberOfPoints=500, Pattern="Jittered"),
            shown=PARTICLES, gives_figures=False),
-    Filter("Density-Equalizing Warp", "vtkDensityEqualizingWarp",
+    Filter("Density Equalizing Warp", "vtkDensityEqualizingWarp",
            {"Input": "mesh", "Density": "density"},
            panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *TILED_PANEL],
            refused=("Blend", -0.5, 1),
            saved=dict(InvertDensity=1, Blend=0.25, EqualizeAreas=1, NumberOfSteps=9, Method="Optimal",
                       OptimalityTolerance=0.01, EmptyCells="Value",
                       EmptyValue=80, Margin=0.05),
-           always_shown=("EqualizeAreas",), defaults={"EmptyCells": "Mean"}),
+           always_shown=("EqualizeAreas",), shown=[READING], defaults={"EmptyCells": "Mean"}),
     Filter("Transport Quality", "vtkTransportQuality",
            {"Input": "points", "Density": "density"},
            panel=["BlockSize", *DENSITY_PANEL, "Tables", "Threading"],
            refused=("BlockSize", -1, 3),
            saved=dict(InvertDensity=1, BlockSize=32),
-           shown=[("View", {"type": "SpreadSheetView"})], gives_table=True),
+           shown=[READING, ("View", {"type": "SpreadSheetView"})], gives_table=True),
     Filter("Relax Blue Noise", "vtkBlueNoiseRelaxation",
            {"Input": "mesh", "Density": "density"},
            panel=["Method", "MaximumIterations", "Tolerance", *DENSITY_PANEL, "Threading"],
            refused=("MaximumIterations", -1, 2),
            quick=dict(MaximumIterations=2),
            saved=dict(InvertDensity=1, Method="OptimalTransport", MaximumIterations=3, Tolerance=0.001),
-           shown=PARTICLES, always_shown=("Tolerance",),  # of another meaning than that of flows
+           shown=[READING, *PARTICLES], always_shown=("Tolerance",),  # of another meaning than that of flows
            choices={"Method": ["GaussianBlueNoise", "OptimalTransport"]}),
     Filter("Cartogram", "vtkCartogram", {"Input": "map"}, {"Overlay": "mesh"},
            ["Regions", "Graticule", "Overlay"],
@@ -273,6 +274,8 @@ PROPERTIES = {
     "Radius": Property(shown_by=("Kernel",), differing=(1.0, 3.0)),
     "Boundary": Property(["Renormalize", "Drop"]),
     "Association": Property(["Points", "Cells"]),
+    "OpenSurfaces": Property(["Error", "WindingNumber"]),
+    "Order": Property(["File", "Path"]),
     "Shape": Property(["Flow", "Power"]),
     "Measure": Property(["Uniform", "Density"]),
     "SamplesPerCell": Property(shown_by=("SeedPattern",), differing=(0, 2)),

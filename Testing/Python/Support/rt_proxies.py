@@ -54,7 +54,9 @@ class Proxy:
         self.label = self.element.get("label", "Vector Files")
         self.class_name = self.element.get("class")
         every = [e for element in elements for e in element]
-        self.properties = {e.get("name"): Property(e) for e in every if e.tag.endswith("Property")}
+        # Those that go on a client with the plugin are of state files of before.
+        self.properties = {e.get("name"): Property(e) for e in every
+                           if e.tag.endswith("Property") and e.get("client_element") != ""}
         self.ports = [e for e in every if e.tag == "OutputPort"]
         self.groups = [e for e in every if e.tag == "PropertyGroup"]
 
@@ -128,7 +130,7 @@ def shared_rows():
 def page_rows(proxy):
     """The properties that a proxy's page documents, in its tables and in the sections of the page
     of shared properties that it links to. Where both have a row, the page's own counts."""
-    text = read_page(proxy.label.replace(" ", "").replace("-", "") + ".md")
+    text = read_page(proxy.label.replace(" ", "") + ".md")
     shared = shared_rows()
     rows = {}
     for section in re.findall(r"\]\(Properties\.md#([^)]*)\)", text):
