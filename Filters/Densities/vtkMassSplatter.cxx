@@ -20,6 +20,8 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -123,10 +125,14 @@ int vtkMassSplatter::RequestInformation(
     vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
     findBounds(points, ranks, bounds);
     requireDimensions(this->Dimensions);
-    const DistributedPoints counted(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
+    // Their number counts for automatic Dimensions alone.
+    const bool isAutomatic = splatter.Dimensions == std::array<int, 3>{};
+    const std::int64_t count = isAutomatic
+      ? DistributedPoints(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks).All()
+      : 0;
     if (bounds[0] <= bounds[1])
     {
-      grid = splatter.GridAround(bounds, counted.All());
+      grid = splatter.GridAround(bounds, count);
     }
   }
   announceSubExtents(outputVector->GetInformationObject(0));

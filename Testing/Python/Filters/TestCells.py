@@ -294,6 +294,23 @@ class Mass(unittest.TestCase):
         self.assertLess(abs(masses.sum() / mass - 1), .005)
         self.assertLess(np.ptp(masses) / masses.mean(), .03)
 
+    def test_automatic_resolution(self):
+        """512 pixels in a plane, 64 in space; a warning of many before they are made."""
+        flat = rt.vtkEqualMassCells()
+        flat.SetInputData(points_in(density_image((40, 30)), 20))
+        flat.SetShapeToPower()
+        flat.Update()
+        self.assertEqual(max(flat.GetLabels().GetDimensions()), 513)
+        solid = rt.vtkEqualMassCells()
+        solid.SetInputData(points_in(density_image((5, 5, 5)), 20))
+        solid.Update()
+        self.assertEqual(max(solid.GetLabels().GetDimensions()), 65)
+        flat.SetResolution(5500)
+        reported = Listener(flat)
+        flat.Update()
+        self.assertEqual(len(reported.warnings), 1)
+        self.assertRegex(reported.warnings[0], "pixels are [0-9]+ million and take about .* MB; a lower Resolution")
+
     def test_labels_are_kept(self):
         """Costs of another exponent need no flow; another density does, also one that is written
         in place."""

@@ -101,6 +101,16 @@ class Splat(unittest.TestCase):
         names = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
         self.assertEqual(names, ["None", "Weight"])
 
+    def test_automatic_dimensions(self):
+        """About as many cells as points, nearly cubes, at most 128 an axis."""
+        for number in (30, 5000):
+            splat = simple.SplatMass(Input=producer(simple, points_in(density_image((60, 50, 40)), number)))
+            image = output_of(splat)
+            self.assertAlmostEqual(np.prod(image.GetDimensions()) / number, 1, delta=.4)
+            self.assertLess(max(image.GetSpacing()) / min(image.GetSpacing()), 1.4)
+        splat = simple.SplatMass(Input=producer(simple, points_in(density_image((60, 3)), 40000)))
+        self.assertEqual(max(output_of(splat).GetDimensions()), 128)
+
     def test_reference_can_be_taken_away(self):
         points = producer(simple, cloud())
         image = density_image((6, 5, 4))
