@@ -52,7 +52,7 @@ if (RectifiedTransport_WRAP_PYTHON)
   configure_file("${PROJECT_SOURCE_DIR}/Python/vtkRectifiedTransport.py"
     "${CMAKE_BINARY_DIR}/${python_package}/vtkRectifiedTransport.py" COPYONLY)
   set(arrays __init__.py _blends.py _data.py _maps.py _numbers.py _points.py
-    _run.py)
+    _regions.py _run.py _surfaces.py)
   foreach (name IN LISTS arrays)
     configure_file("${PROJECT_SOURCE_DIR}/Python/arrays/${name}"
       "${CMAKE_BINARY_DIR}/${python_package}/arrays/${name}" COPYONLY)

@@ -367,22 +367,14 @@ int vtkCollectiveAlgorithm::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-void vtkCollectiveAlgorithm::UpdateInputBeforeData(
-  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
-{
-  this->Early->Run(this, port, connection, inputVector[port]->GetInformationObject(connection),
-    outputVector->GetInformationObject(0), SoloRanks::Get());
-}
-
-//------------------------------------------------------------------------------
 const Ranks& vtkCollectiveAlgorithm::UpdateInputOnRanks(
-  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
   if (!this->Run)
   {
     this->Run = this->Whole->BeginWithoutPieces(this, port, inputVector);
   }
-  this->Early->Run(this, port, 0, inputVector[port]->GetInformationObject(0),
+  this->Early->Run(this, port, connection, inputVector[port]->GetInformationObject(connection),
     outputVector->GetInformationObject(0), this->GetRanks());
   return this->GetRanks();
 }

@@ -117,18 +117,14 @@ protected:
    * from points or cells, image filters downstream would otherwise get no data, or read past the
    * end of an image that is smaller than announced. Where the points change with time,
    * RequestInformation is called again for the time that is requested downstream.
+   *
+   * The port is partitioned or gathered: where there are several ranks, all of them meet here, and
+   * each updates its own piece. Returns the ranks, so that all announce the same; GetRanks returns
+   * them, too, until RequestInformation returns. If ranks do not meet in time, or execute blocks,
+   * this process runs alone and updates all data.
    */
-  void UpdateInputBeforeData(int port, vtkInformationVector** inputVector,
+  const RectifiedTransport::Ranks& UpdateInputOnRanks(int port, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector, int connection = 0);
-
-  /**
-   * The same on a port that is partitioned or gathered: where there are several ranks, all of them
-   * meet here, and each updates its own piece. Returns the ranks, so that all announce the same;
-   * GetRanks returns them, too, until RequestInformation returns. If ranks do not meet in time, or
-   * execute blocks, this process runs alone and updates all data.
-   */
-  const RectifiedTransport::Ranks& UpdateInputOnRanks(
-    int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
    * What the filter needs of an input port. By default all data: whole images, because a transport

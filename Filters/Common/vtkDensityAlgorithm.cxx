@@ -73,6 +73,12 @@ vtkMTimeType vtkDensityAlgorithm::GetTableBuildTime()
 }
 
 //------------------------------------------------------------------------------
+int vtkDensityAlgorithm::IsInputAroundSolid()
+{
+  return isAroundSolid(this->GetInputDataObject(this->DensityPort, 0)) ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
 FlowCache& vtkDensityAlgorithm::GetFlowCache()
 {
   return this->Internals->Cache;

@@ -24,12 +24,16 @@
  * VTK divides the cells. Cell arrays are constant. Cells that overlap add up. Cells in an oblique
  * plane or line get an image in it.
  *
+ * Polygons of a vtkPolyData that lie in no plane must be a closed surface. The density is then what
+ * vtkSolidDensity makes of it, on its bounds with DensityResolution cells: 1 inside and 0 outside.
+ * No array is read.
+ *
  * Images that tile one lattice are joined to one image instead, value by value. Cells of one
  * lattice, for example what vtkThreshold leaves of an image, become that image again. The leaves of
  * a vtkHyperTreeGrid are its cells. Blocks without the array carry no mass. Blocks without cells,
  * such as tables, are ignored. Both give a warning. Blanked cells and AMR cells covered by finer
- * ones carry no mass. Surfaces that lie in no plane, and inputs without cells of positive measure,
- * are errors.
+ * ones carry no mass. Other surfaces that lie in no plane, and inputs without cells of positive
+ * measure, are errors.
  *
  * Mass is physical: density times cell measure. The measure is the length, area or volume that the
  * image's axes of more than one point span.
@@ -189,6 +193,12 @@ public:
    * first.
    */
   vtkMTimeType GetTableBuildTime();
+
+  /**
+   * Whether the density's input, as it is now, is polygons that lie in no plane, so that no array
+   * of it is read.
+   */
+  int IsInputAroundSolid();
 
 protected:
   /**

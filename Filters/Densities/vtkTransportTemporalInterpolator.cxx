@@ -150,7 +150,7 @@ int vtkTransportTemporalInterpolator::RequestInformation(
   if (data && !vtkImageData::SafeDownCast(data))
   {
     // The information of other data has no extents.
-    this->UpdateInputBeforeData(0, inputVector, outputVector);
+    this->UpdateInputOnRanks(0, inputVector, outputVector);
   }
   // The cached steps have the numbers from 0 to Most - 1; the data before any pass have the next
   // one.

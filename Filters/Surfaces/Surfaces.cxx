@@ -6,6 +6,7 @@
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
+#include "Core/Transport.h"
 #include "Surfaces/Seams/CutOpenSurface.h"
 #include "Surfaces/Seams/CutSurfaceMap.h"
 #include "Surfaces/Solid/ClosedMesh.h"
@@ -48,18 +49,73 @@ std::array<double, 6> boundsOf(const TriangleSurface& surface)
     bounds.High[2] };
 }
 
-// The grid around a surface; what is wrong with it is an error of the options.
-ImageGrid gridAround(
-  const std::array<double, 6>& bounds, int resolution, const SolidOptions& options)
+// A mesh in the index space of its cells, and these.
+struct FilledMesh
 {
+  ClosedMesh Mesh;
+  SolidCells Cells;
+};
+
+// The density of a solid (paper, Section 5.2): a closed mesh, oriented, covers cells in part.
+FilledMesh fill(
+  const TriangleSurface& surface, int resolution, const SolidOptions& options, Progress& progress)
+{
+  if (options.Supersampling < 1)
+  {
+    throw std::invalid_argument(
+      "Supersampling is " + std::to_string(options.Supersampling) + "; it must be 1 or more");
+  }
+  Stages stages(
+    progress, { { "points", 20 }, { "edges", 20 }, { "orientation", 10 }, { "coverage", 50 } });
+  const std::array<double, 6> bounds = boundsOf(surface);
+  ImageGrid grid;
   try
   {
-    return solidGrid(bounds, resolution, options.Padding);
+    grid = solidGrid(bounds, resolution, options.Padding);
   }
   catch (const Failure& failure)
   {
-    throw std::invalid_argument(failure.what());
+    throw std::invalid_argument(failure.what()); // an error of the options
   }
+  const std::int64_t corners = 3 * surface.Points.size();
+  // The mesh owns and moves its points, so that it gets a copy: three coordinates a point.
+  LargeBuffer<double> coordinates(corners);
+  std::copy_n(surface.Points.data(), corners, coordinates.data());
+  ClosedMesh mesh(std::move(coordinates), stages["points"]);
+  // The points are doubles: distances for coordinates rounded to float are not tried.
+  const std::string problem = mesh.Close(surface, ClosingDistances(bounds, false), stages["edges"]);
+  const bool isOpen = !problem.empty() && options.MayBeOpen && mesh.Surface().NumberOfTriangles > 0;
+  if (!problem.empty() && !isOpen)
+  {
+    throw std::invalid_argument("the surface " + problem);
+  }
+  // Coverage needs index coordinates and one orientation. Points are moved first, because moving
+  // rounds them: orientations then follow from the same bits as volumes.
+  mesh.MoveToCells(grid, bounds, stages["orientation"]);
+  if (isOpen)
+  {
+    mesh.OrientOpen(stages["orientation"]);
+  }
+  else if (!mesh.Orient(stages["orientation"]))
+  {
+    throw std::invalid_argument("the surface has one side only, so that it has no inside");
+  }
+  FilledMesh filled{ std::move(mesh), {} };
+  SolidCells& covered = filled.Cells;
+  std::copy_n(grid.Origin().data(), 3, covered.Low.begin());
+  covered.CellSide = grid.Spacing()[0];
+  covered.Cells = grid.Size<3>();
+  // One value a cell, axis 0 fastest; coverSolid writes all of them.
+  covered.Values.resize(static_cast<std::size_t>(numberOfCells<3>(covered.Cells)));
+  double* values = covered.Values.data();
+  if (isOpen)
+  {
+    coverPartOfOpenSolid(filled.Mesh.Surface(), covered.Cells,
+      LatticePart<3>::WholeOf(covered.Cells), options.Supersampling, values, stages["coverage"]);
+    return filled;
+  }
+  coverSolid(filled.Mesh.Solid(), covered.Cells, options.Supersampling, values, stages["coverage"]);
+  return filled;
 }
 
 } // namespace
@@ -114,58 +170,36 @@ std::vector<PlaceOnTriangle> sample(const TriangleSurface& surface, std::int64_t
   return { relaxed.Places.data(), relaxed.Places.data() + relaxed.Places.size() };
 }
 
-// The density of a solid (paper, Section 5.2): a closed mesh, oriented, covers cells in part.
+std::vector<Point<3>> inside(const TriangleSurface& surface, std::int64_t count,
+  const InsideOptions& options, const Context& context)
+{
+  Progress progress(context);
+  Stages stages(progress, { { "solid", 2 }, { "points", 7 }, { "inside", 1 } });
+  const FilledMesh filled =
+    fill(surface, options.Resolution, { 0.0, 2, options.MayBeOpen }, stages["solid"]);
+  const SolidCells& box = filled.Cells;
+  Point<3> sides; // in cells, so that points are in index space
+  std::copy(box.Cells.begin(), box.Cells.end(), sides.begin());
+  SampleOptions samples;
+  samples.RandomSeed = options.RandomSeed;
+  std::vector<Point<3>> points =
+    sample<3>({ box.Values.data(), box.Cells, sides }, count, samples, stages["points"]);
+  moveInside(filled.Mesh.Surface(), points, stages["inside"]);
+  for (Point<3>& point : points)
+  {
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      point[a] = box.Low[a] + box.CellSide * point[a];
+    }
+  }
+  return points;
+}
+
 SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOptions& options,
   const Context& context)
 {
-  if (options.Supersampling < 1)
-  {
-    throw std::invalid_argument(
-      "Supersampling is " + std::to_string(options.Supersampling) + "; it must be 1 or more");
-  }
   Progress progress(context);
-  Stages stages(
-    progress, { { "points", 20 }, { "edges", 20 }, { "orientation", 10 }, { "coverage", 50 } });
-  const std::array<double, 6> bounds = boundsOf(surface);
-  const ImageGrid grid = gridAround(bounds, resolution, options);
-  const std::int64_t corners = 3 * surface.Points.size();
-  // The mesh owns and moves its points, so that it gets a copy: three coordinates a point.
-  LargeBuffer<double> coordinates(corners);
-  std::copy_n(surface.Points.data(), corners, coordinates.data());
-  ClosedMesh mesh(std::move(coordinates), stages["points"]);
-  // The points are doubles: distances for coordinates rounded to float are not tried.
-  const std::string problem = mesh.Close(surface, ClosingDistances(bounds, false), stages["edges"]);
-  const bool isOpen = !problem.empty() && options.MayBeOpen && mesh.Surface().NumberOfTriangles > 0;
-  if (!problem.empty() && !isOpen)
-  {
-    throw std::invalid_argument("the surface " + problem);
-  }
-  // Coverage needs index coordinates and one orientation. Points are moved first, because moving
-  // rounds them: orientations then follow from the same bits as volumes.
-  mesh.MoveToCells(grid, bounds, stages["orientation"]);
-  if (isOpen)
-  {
-    mesh.OrientOpen(stages["orientation"]);
-  }
-  else if (!mesh.Orient(stages["orientation"]))
-  {
-    throw std::invalid_argument("the surface has one side only, so that it has no inside");
-  }
-  SolidCells covered;
-  std::copy_n(grid.Origin().data(), 3, covered.Low.begin());
-  covered.CellSide = grid.Spacing()[0];
-  covered.Cells = grid.Size<3>();
-  // One value a cell, axis 0 fastest; coverSolid writes all of them.
-  covered.Values.resize(static_cast<std::size_t>(numberOfCells<3>(covered.Cells)));
-  if (isOpen)
-  {
-    coverPartOfOpenSolid(mesh.Surface(), covered.Cells, LatticePart<3>::WholeOf(covered.Cells),
-      options.Supersampling, covered.Values.data(), stages["coverage"]);
-    return covered;
-  }
-  coverSolid(
-    mesh.Solid(), covered.Cells, options.Supersampling, covered.Values.data(), stages["coverage"]);
-  return covered;
+  return fill(surface, resolution, options, progress).Cells;
 }
 
 } // namespace RectifiedTransport

@@ -10,6 +10,7 @@
 //   const Parameterization flat = parameterize(surface);             // in [0,1]^2, areas kept
 //   const std::vector<PlaceOnTriangle> dots = sample(surface, 5000); // spaced evenly
 //   const SolidCells volume = solid(surface, 64);                    // what it encloses
+//   const std::vector<Point<3>> cloud = inside(surface, 5000);       // points in it, spaced evenly
 //
 // What they have in common with Core/Transport.h: a result has the same bits for every number of
 // threads; they throw std::invalid_argument (options; triangles with points that do not exist),
@@ -95,6 +96,19 @@ struct SolidCells
 // open, unless it may, or is not orientable.
 SolidCells solid(const TriangleSurface& surface, int resolution, const SolidOptions& options = {},
   const Context& context = Context());
+
+struct InsideOptions
+{
+  int Resolution = 256; // cells along the longest side of the surface's box, 1 and more
+  std::uint64_t RandomSeed = 1;
+  bool MayBeOpen = false; // as of SolidOptions
+};
+
+// `count` points inside a closed surface, spaced evenly: samples of what it covers of the cells of
+// its box. Those that this puts outside, into cells that are covered in part, are moved within
+// their cell. Memory: 40 bytes a cell. Throws as `solid` does.
+std::vector<Point<3>> inside(const TriangleSurface& surface, std::int64_t count,
+  const InsideOptions& options = {}, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -15,6 +15,9 @@ integers. Results are on VTK's own memory.
 Values under a mask of numpy.ma, None and pandas' NA are missing: there is no mass. NaN is an error
 unless NaNValues="Empty" makes it missing, too. Texts of numbers are numbers.
 
+Surfaces are points, rows of x, y and z, and triangles, rows of three numbers of points from 0.
+Regions are what has __geo_interface__.
+
 Each function runs a filter of the package once and gives that filter's bits. Keywords are the
 filter's properties by name: Method="Optimal", NaNValues="Empty", NumberOfSteps=64. help() of the
 class lists them. Errors of a filter are ValueError, or MemoryError, with the filter's text; its
@@ -27,6 +30,9 @@ warnings are RuntimeWarning. Arrays of another type, and unknown keywords, are T
 from ._blends import Distance, barycenter, distance, morph
 from ._maps import TransportMap, transport_map
 from ._points import Cells, cells, relax, sample, stipple
+from ._regions import cartogram
+from ._surfaces import SolidDensity, SurfacePoints, inside, solid_density, surface_points
 
-__all__ = ["Cells", "Distance", "TransportMap", "barycenter", "cells", "distance", "morph", "relax",
-           "sample", "stipple", "transport_map"]
+__all__ = ["Cells", "Distance", "SolidDensity", "SurfacePoints", "TransportMap", "barycenter",
+           "cartogram", "cells", "distance", "inside", "morph", "relax", "sample", "solid_density",
+           "stipple", "surface_points", "transport_map"]

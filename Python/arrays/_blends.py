@@ -23,6 +23,12 @@ class Distance(NamedTuple):
     upper: float
 
 
+def _density_of(blend, axes):
+    """The density that a filter gives, by any name; not a copy."""
+    image = blend.GetDensity()
+    return point_values_of(image, image.GetPointData().GetScalars().GetName(), axes)
+
+
 class _Pair:
     """Morph Densities from one array to another."""
 
@@ -42,7 +48,7 @@ class _Pair:
         """The density at a time; not a copy."""
         self.algorithm.SetParameter(t)
         update(self.algorithm, self.shapes)
-        return point_values_of(self.algorithm.GetDensity(), "Density", self.axes)
+        return _density_of(self.algorithm, self.axes)
 
 
 def morph(a: ArrayLike, b: ArrayLike, t: Union[float, Sequence[float]] = 0.5, *,
@@ -118,7 +124,7 @@ def barycenter(densities: Sequence[ArrayLike], weights: Optional[Sequence[float]
     for i, weight in enumerate(all_numbers([] if weights is None else weights, "weights")):
         algorithm.SetWeight(i, float(weight))
     update(algorithm, {"density": shapes[0]} if len(set(shapes)) == 1 else {})
-    return point_values_of(algorithm.GetDensity(), "Density", len(shapes[0]))
+    return _density_of(algorithm, len(shapes[0]))
 
 
 def distance(a: ArrayLike, b: ArrayLike, *, spacing: Numbers = 1.0, origin: Numbers = 0.0,

@@ -3,10 +3,11 @@
 from typing import Sequence, Union
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_SIGNED_CHAR
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkDataSetAttributes, vtkImageData,
+                                           vtkPolyData)
 
 from ._numbers import all_numbers, numbers_and_gaps
 
@@ -61,12 +62,12 @@ def image_of(values, name, spacing=1.0, origin=0.0, colours=False, grown_to=None
     return image, shape
 
 
-def point_set(points, name, axes):
+def point_set(points, name, axes, why="as the density has %d axes"):
     """The vtkPolyData of points given as rows of x and y or of x, y and z."""
     array = all_numbers(points, name)
     if array.ndim != 2 or array.shape[1] != axes:
-        raise ValueError("%s has the shape %s; it must be (number of points, %d), as the density has "
-                         "%d axes" % (name, array.shape, axes, axes))
+        raise ValueError("%s has the shape %s; it must be (number of points, %d), %s"
+                         % (name, array.shape, axes, why.replace("%d", str(axes))))
     if array.dtype.kind != "f" or axes < 3:
         rows = np.zeros((len(array), 3))
         rows[:, :axes] = array
@@ -74,6 +75,27 @@ def point_set(points, name, axes):
     data = vtkPolyData()
     data.SetPoints(vtkPoints())
     data.GetPoints().SetData(vtk_array(array, name))
+    return data
+
+
+def surface_of(points, triangles):
+    """The vtkPolyData of triangles, given as rows of three numbers of points."""
+    data = point_set(points, "points", 3, "rows of x, y and z")
+    rows = all_numbers(triangles, "triangles")
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise ValueError("triangles has the shape %s; it must be (number of triangles, 3), rows of "
+                         "numbers of points" % (rows.shape,))
+    if rows.dtype.kind not in "iu":
+        raise TypeError("triangles has values of type %s; they must be integers, the numbers of points"
+                        % rows.dtype)
+    wrong = np.argwhere((rows < 0) | (rows >= data.GetNumberOfPoints()))
+    if len(wrong):
+        raise ValueError("triangles[%d, %d] is %d; there are %d points, numbered from 0"
+                         % (*wrong[0], rows[tuple(wrong[0])], data.GetNumberOfPoints()))
+    cells = vtkCellArray()
+    cells.SetData(*(numpy_to_vtkIdTypeArray(ids.astype(np.int64), deep=1)
+                    for ids in (np.arange(0, rows.size + 1, 3), rows.reshape(-1))))
+    data.SetPolys(cells)
     return data
 
 

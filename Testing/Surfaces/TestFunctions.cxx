@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -139,6 +140,44 @@ TEST(SurfaceFunctions, SolidHasItsVolume)
   const SolidCells united = solid(two.Surface(), 50, options);
   const double both = std::accumulate(united.Values.begin(), united.Values.end(), 0.0);
   EXPECT_NEAR(both * std::pow(united.CellSide, 3), 10.0, 1e-9);
+}
+
+// A slab of two unequal parts, tilted against the cells: no point is outside, and the parts have
+// points in proportion to their volumes.
+TEST(SurfaceFunctions, PointsFillASolid)
+{
+  Mesh boxes = makeBox({ 0, 0, 0 }, { 4, 2, 1 });
+  boxes.Add(makeBox({ 6, 0, 0 }, { 7, 2, 1 }));
+  constexpr double turn = 0.3;
+  const auto turned = [](const Point<3>& x, double angle) {
+    return Point<3>{ std::cos(angle) * x[0] - std::sin(angle) * x[1],
+      std::sin(angle) * x[0] + std::cos(angle) * x[1], x[2] };
+  };
+  const Mesh tilted = boxes.Mapped([&](const Point<3>& x) { return turned(x, turn); });
+  InsideOptions options;
+  options.Resolution = 24;
+  const std::vector<Point<3>> points = inside(tilted.Surface(), 2000, options);
+  ASSERT_EQ(points.size(), 2000u);
+  std::int64_t small = 0;
+  for (const Point<3>& point : points)
+  {
+    const Point<3> x = turned(point, -turn);
+    constexpr double rounding = 1e-9;
+    const bool isIn = std::min({ x[0], x[1], x[2], 2.0 - x[1], 1.0 - x[2] }) > -rounding &&
+      (x[0] < 4.0 + rounding || (x[0] > 6.0 - rounding && x[0] < 7.0 + rounding));
+    EXPECT_TRUE(isIn) << x[0] << " " << x[1] << " " << x[2];
+    small += x[0] > 5.0;
+  }
+  EXPECT_NEAR(static_cast<double>(small), 400.0, 8.0);
+  // A surface with holes must be allowed.
+  Mesh open = tilted;
+  open.Triangles.erase(open.Triangles.begin());
+  EXPECT_NE(
+    refusal([&]() { inside(open.Surface(), 10, options); }).find("open edges"), std::string::npos);
+  options.MayBeOpen = true;
+  EXPECT_EQ(inside(open.Surface(), 10, options).size(), 10u);
+  options.RandomSeed = 2;
+  EXPECT_NE(inside(tilted.Surface(), 10, options), inside(tilted.Surface(), 10, { 24 }));
 }
 
 TEST(SurfaceFunctions, Refusals)

@@ -49,6 +49,8 @@ struct DensityBlocks
   std::vector<DensityBlock> All;
   bool OnPoints;
   int Dimension; // the largest of a block's cells
+  // Polygons that lie in no plane: they enclose the mass, and no array is read.
+  bool AreAroundSolid = false;
 };
 
 // A leaf of a composite data set.

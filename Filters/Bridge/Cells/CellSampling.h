@@ -4,7 +4,6 @@
 #define RectifiedTransport_CellSampling_h
 
 #include "Bridge/Cells/BlockValues.h"
-#include "Core/Geometry/Points.h"
 #include "Core/Resampling/CellLattice.h"
 
 #include <optional>

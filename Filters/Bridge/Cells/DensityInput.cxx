@@ -15,6 +15,7 @@
 #include "Bridge/Run/TextToNumbers.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Resampling/CellFrame.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -22,6 +23,7 @@
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <utility>
@@ -239,26 +241,60 @@ vtkSmartPointer<vtkDataArray> arrayLike(
   return array && !array->GetName() && association == found.Association ? array : nullptr;
 }
 
+// Whether all points of a surface lie in a plane, those of no polygon as well.
+bool isFlat(vtkPolyData* surface)
+{
+  return areInPlane(surface->GetNumberOfPoints(),
+    [surface](std::int64_t i, double* position) { surface->GetPoint(i, position); });
+}
+
+// Whether the largest cells of the blocks are polygons that lie in no plane. Throws Failure for
+// points that are not finite, and Cancelled.
+bool areCurved(const std::vector<DensityBlock>& blocks, Progress& progress)
+{
+  if (blocks.size() == 1 && isFlat(vtkPolyData::SafeDownCast(blocks.front().Data)))
+  {
+    return false;
+  }
+  try
+  {
+    const CellSets sets = cellSetsOf(blocks);
+    CellFrame::Of(sets, massCells(sets, 2, progress), progress);
+    return false;
+  }
+  catch (const NotFlat&)
+  {
+    return true;
+  }
+}
+
 // Sets the arrays of the blocks and leaves out those that cannot carry mass: those of fewer
 // dimensions than the blocks with the array, and those of more dimensions without it.
 DensityBlocks chooseArrays(
-  const DensityChoice& choice, const std::vector<DensityBlock>& blocks, const Ranks& ranks)
+  const DensityChoice& choice, const std::vector<DensityBlock>& blocks, Progress& progress)
 {
   // Damaged cells are found here, before anything reads them. Vertices have the dimension 0.
   std::vector<int> dimensions;
+  bool arePolygons = true; // or lines
   for (const DensityBlock& block : blocks)
   {
     requireReadableCells(block.Data, block.Name);
     dimensions.push_back(largestCellDimension(block.Data));
+    arePolygons = arePolygons && vtkPolyData::SafeDownCast(block.Data);
   }
-  if (*std::max_element(dimensions.begin(), dimensions.end()) == 0)
+  const int largest = *std::max_element(dimensions.begin(), dimensions.end());
+  if (largest == 2 && arePolygons && areCurved(blocks, progress))
+  {
+    return { blocks, false, 3, true };
+  }
+  if (largest == 0)
   {
     throw Failure("The input has no cells of a length, area or volume, so that it has no density; "
                   "Splat Mass makes one of points");
   }
   const FoundArray found = findArray(choice, blocks, dimensions);
   // Blocks are matched by names here, as the blocks of another rank have other arrays in memory.
-  if (ranks.AreSeveral())
+  if (progress.Group().AreSeveral())
   {
     requireName(found.Array);
   }
@@ -333,6 +369,13 @@ void warnOfAuto(const DensityChoice& choice, const DensityReading& reading)
 
 } // namespace
 
+bool isAroundSolid(vtkDataObject* input)
+{
+  auto* surface = vtkPolyData::SafeDownCast(input);
+  return hasElements(surface) && surface->GetNumberOfPolys() + surface->GetNumberOfStrips() > 0 &&
+    !isFlat(surface);
+}
+
 std::unique_ptr<InputDensity> DensityInput::Read(
   const DensityChoice& choice, vtkDataObject* input, Progress& progress)
 {
@@ -390,7 +433,7 @@ std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
     return nullptr;
   }
   auto density = this->Resampled.Read(
-    chooseArrays(choice, blocks, ranks), choice.Resolution, choice.Rules, progress);
+    chooseArrays(choice, blocks, progress), choice.Resolution, choice.Rules, progress);
   for (const std::string& warning : this->Resampled.Warnings())
   {
     choice.Warn(warning);

@@ -34,6 +34,9 @@ struct DensityChoice
   std::function<void(const std::string&)> Warn;
 };
 
+// Whether a data object, which may be nullptr, is polygons that lie in no plane.
+bool isAroundSolid(vtkDataObject* input);
+
 // Keeps what the last run made of the data. It is made again only if the data or the choice change.
 class DensityInput
 {

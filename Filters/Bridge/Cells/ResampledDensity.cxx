@@ -8,21 +8,25 @@
 #include "Bridge/Density/ArrayReader.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Boxes/GridResolution.h"
+#include "Bridge/Triangles/SolidDensity.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Resampling/CellFrame.h"
 #include "Core/Resampling/CellSums.h"
 #include "Core/Resampling/Reading/SetMessages.h"
 #include "Core/Resampling/RegionShapes.h"
 #include "Core/Tables/Reading/OccupiedCells.h"
+#include "Surfaces/Solid/SolidCoverage.h"
 
+#include "vtkAppendPolyData.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <iterator>
@@ -72,13 +76,14 @@ DataIdentity contentOf(const DensityBlocks& blocks, int resolution, const Densit
 
 } // namespace
 
-// The image that data sets were resampled to. Its values are densities, with the rules applied.
-// Particles get their arrays from the data sets.
+// The image that data sets were resampled to, whose values are densities with the rules applied; or
+// the one of a solid, whose values the rules are for. Particles get their arrays from the data
+// sets; surfaces have none for what they enclose.
 class ResampledDensity::Density final : public DensityImage
 {
 public:
-  explicit Density(const ResampledDensity& made)
-    : DensityImage(made.Image, made.Image->GetCellData()->GetScalars(), false, DensityRules())
+  explicit Density(const ResampledDensity& made, const DensityRules& rules = DensityRules())
+    : DensityImage(made.Image, made.Image->GetCellData()->GetScalars(), false, rules)
     , Made(made)
   {
     this->Empty = made.Empty;
@@ -88,7 +93,18 @@ public:
   void SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const override
   {
-    sampleCells(this->Made.Blocks, this->Made.Lattice, this->Grid(), particles, progress, output);
+    if (!this->Made.Surface)
+    {
+      sampleCells(this->Made.Blocks, this->Made.Lattice, this->Grid(), particles, progress, output);
+    }
+  }
+
+  void MoveInside(PointSpan<3> particles, Progress& progress) const override
+  {
+    if (this->Made.Surface && !this->Rules.Invert)
+    {
+      moveInside(this->Made.Surface->Triangles(), particles, progress);
+    }
   }
 
 private:
@@ -103,20 +119,31 @@ private:
 std::unique_ptr<InputDensity> ResampledDensity::Read(
   const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
 {
-  // Three results: one image stays as it is, images that tile a lattice are joined, and all other
-  // data are resampled. Only the last one has Blocks and applies the rules to the values itself.
+  // Four results: one image stays as it is, images that tile a lattice are joined, surfaces that
+  // lie in no plane are filled, and all other data are resampled. Only the last one has Blocks and
+  // applies the rules to the values itself.
   DataIdentity content = contentOf(blocks, resolution, rules);
   if (!content.IsSameAs(this->Content, progress))
   {
     // Releases the last image before memory for the next one is needed.
     *this = ResampledDensity();
-    this->Image = joinImages(blocks.All, blocks.OnPoints);
-    if (!this->Image)
+    this->Image = joinImages(blocks.All, blocks.OnPoints); // nullptr for other data
+    if (blocks.AreAroundSolid)
+    {
+      this->FillSurfaces(blocks.All, resolution, progress);
+    }
+    else if (!this->Image)
     {
       this->Resample(blocks, resolution, rules, progress);
     }
     content.Hash(progress);
     this->Content = std::move(content);
+  }
+  if (blocks.AreAroundSolid)
+  {
+    this->How = readingBy(rules, "", 1); // no array is read
+    this->How.Component = 0;
+    return std::make_unique<Density>(*this, rules);
   }
   // The data sets may be new ones with the same content.
   const std::vector<DensityBlock> read = withMass(blocks.All);
@@ -140,6 +167,32 @@ std::unique_ptr<InputDensity> ResampledDensity::Read(
     array = attributesOf(this->Image, blocks.OnPoints)->GetScalars();
   }
   return std::make_unique<DensityImage>(this->Image, array, blocks.OnPoints, rules);
+}
+
+// Makes the image of Solid Density, in the bounds of the surfaces: the covered fraction of each
+// cell.
+void ResampledDensity::FillSurfaces(
+  const std::vector<DensityBlock>& surfaces, int resolution, Progress& progress)
+{
+  // Those of all blocks and ranks are one solid. Their arrays play no part, whatever their lengths.
+  vtkNew<vtkAppendPolyData> all;
+  for (const DensityBlock& block : surfaces)
+  {
+    vtkNew<vtkPolyData> surface;
+    surface->CopyStructure(block.Data);
+    all->AddInputData(surface);
+  }
+  all->Update();
+  SolidDensity solid{ resolution, 2, 0.0, false, false };
+  solid.OpenAdvice =
+    ". Sample Surface puts particles on an open surface; Solid Density with OpenSurfaces "
+    "WindingNumber makes a density of it, for particles inside";
+  solid.ResolutionName = "DensityResolution";
+  this->Image = vtkSmartPointer<vtkImageData>::New();
+  const SolidDensityReport report = solid.Run(
+    all->GetOutput(), [](const ImageGrid& grid) { return grid.Extent(); }, progress, this->Image);
+  this->Surface = report.Surface;
+  this->Lost.assign(report.Repair.empty() ? 0 : 1, report.Repair);
 }
 
 void ResampledDensity::Resample(

@@ -28,12 +28,15 @@ class Progress;
 namespace RectifiedTransport::Bridge
 {
 
+class ClosedSurface;
+
 // Keeps the last image. It is made again only if the data sets or the parameters change.
 class ResampledDensity
 {
 public:
-  // Images that tile a lattice are joined, other data sets resampled with `resolution` cells. The
-  // density is valid until the next Read. Throws Failure and Cancelled.
+  // Images that tile a lattice are joined, closed surfaces filled and other data sets resampled
+  // with `resolution` cells. The density is valid until the next Read. Throws Failure and
+  // Cancelled.
   std::unique_ptr<InputDensity> Read(
     const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress);
 
@@ -43,6 +46,7 @@ public:
 private:
   class Density;
 
+  void FillSurfaces(const std::vector<DensityBlock>& surfaces, int resolution, Progress& progress);
   void Resample(
     const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress);
   CellSize AddCells(const ImageGrid& grid, const std::vector<CellValues>& cells, Progress& progress,
@@ -58,7 +62,8 @@ private:
   std::optional<CellLattice> Lattice;
   std::vector<std::string> Suspect;
   std::vector<std::string> Lost;
-  double Empty = 0.0; // the density of what their cells do not cover
+  double Empty = 0.0;                           // the density of what their cells do not cover
+  std::shared_ptr<const ClosedSurface> Surface; // around a solid, in index space
 };
 
 } // namespace RectifiedTransport::Bridge

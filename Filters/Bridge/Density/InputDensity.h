@@ -109,6 +109,9 @@ public:
   virtual void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const = 0;
 
+  // Moves particles, in index space, out of the parts of cells that are outside of a solid.
+  virtual void MoveInside(PointSpan<3> /*particles*/, Progress& /*progress*/) const {}
+
   // Makes Prepare find what empty cells count as even if this density has none.
   void FindEmptyDensity() { this->MustFindEmpty = true; }
   // What empty cells count as, from Prepare on.

@@ -174,6 +174,10 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     else if (times.back() == 1.0 && times.size() == 1)
     {
       report.Flow = plan.Forward(starts, positions, stages["flow"]);
+      if constexpr (D == 3)
+      {
+        density.MoveInside(positions, stages["flow"]);
+      }
       if (plan.Certificate())
       {
         slack = slackOf<D>(plan, grid, seeds, positions, stages["slack"]);

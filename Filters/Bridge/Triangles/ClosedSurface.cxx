@@ -46,7 +46,8 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
   return bounds;
 }
 
-ClosedSurface::ClosedSurface(vtkPolyData* input, bool mayBeOpen, Progress& progress)
+ClosedSurface::ClosedSurface(
+  vtkPolyData* input, bool mayBeOpen, const std::string& advice, Progress& progress)
 {
   const auto points = static_cast<double>(input->GetNumberOfPoints());
   constexpr double bytesOfPoint = 64.0; // with the table
@@ -79,8 +80,7 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, bool mayBeOpen, Progress& progr
     !problem.empty() && this->Mesh->OpenEdges() + this->Mesh->NonManifoldEdges() > 0;
   if (!problem.empty() && !(this->StaysOpen && mayBeOpen))
   {
-    throw Failure("The input surface " + problem +
-      (this->StaysOpen ? ". OpenSurfaces WindingNumber takes it with its holes" : ""));
+    throw Failure("The input surface " + problem + (this->StaysOpen ? advice : ""));
   }
 }
 

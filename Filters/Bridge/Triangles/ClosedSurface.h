@@ -35,10 +35,12 @@ public:
   // rounding, which is 1e-9 of the longest side of the polygons' bounds or four rounding errors of
   // float coordinates, and at T-junctions that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2 of
   // that side. Throws Failure if the input has no polygons, coordinates that are not finite, or
-  // edges of an odd number of triangles that may not stay, and Cancelled.
-  ClosedSurface(vtkPolyData* input, bool mayBeOpen, Progress& progress);
+  // edges of an odd number of triangles that may not stay, with an advice at its end, and
+  // Cancelled.
+  ClosedSurface(vtkPolyData* input, bool mayBeOpen, const std::string& advice, Progress& progress);
 
   bool IsOpen() const { return this->StaysOpen; }
+  TriangleSurface Triangles() const { return this->Mesh->Surface(); }
 
   // A warning that counts T-junctions that were closed; empty if there were none.
   std::string RepairWarning() const;

@@ -4,7 +4,6 @@
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Data/PointInput.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Triangles/ClosedSurface.h"
 #include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Boxes/SolidGrid.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
@@ -26,9 +25,12 @@ namespace
 {
 
 vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, bool isOpen,
-  const GridSize<3>& cells, const LatticePart<3>& part, int supersampling, Progress& progress)
+  const GridSize<3>& cells, const LatticePart<3>& part, const SolidDensity& options,
+  Progress& progress)
 {
-  const std::string grid = describeSize<3>(part.Cells) + " cells (see Resolution)";
+  const int supersampling = options.Supersampling;
+  const std::string grid =
+    describeSize<3>(part.Cells) + " cells (see " + options.ResolutionName + ")";
   const double count = numberOfCells<3>(part.Cells);
   requireMemory({ "a density of " + grid, count * sizeof(double) });
   auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
@@ -77,21 +79,22 @@ SolidDensityReport SolidDensity::Run(vtkPolyData* surface,
   vtkImageData* output) const
 {
   Stages stages(progress, { { "surface", 4 }, { "orientation", 1 }, { "coverage", 5 } });
-  ClosedSurface closed(surface, this->MayBeOpen, stages["surface"]);
-  const ImageGrid cells = solidGrid(closed.Bounds(), this->Resolution, this->Padding);
+  const auto closed =
+    std::make_shared<ClosedSurface>(surface, this->MayBeOpen, this->OpenAdvice, stages["surface"]);
+  const ImageGrid cells = solidGrid(closed->Bounds(), this->Resolution, this->Padding);
   const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
   const Extent wanted = chooseExtent(grid);
-  const SolidSurface triangles = closed.InCells(cells, stages["orientation"]);
+  const SolidSurface triangles = closed->InCells(cells, stages["orientation"]);
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   // The values are those of cells, or of the points at their centres.
   const auto part = latticePartOf<3>(tuplesOf(wanted, owner, grid.Extent()), cells);
-  const vtkSmartPointer<vtkDoubleArray> density = cover(
-    triangles, closed.IsOpen(), cells.Size<3>(), part, this->Supersampling, stages["coverage"]);
+  const vtkSmartPointer<vtkDoubleArray> density =
+    cover(triangles, closed->IsOpen(), cells.Size<3>(), part, *this, stages["coverage"]);
   applyGrid(grid, output);
   Extent extent = wanted; // VTK takes no constant one
   output->SetExtent(extent.data());
   output->GetAttributes(owner)->SetScalars(density);
-  return { grid, closed.RepairWarning() };
+  return { grid, closed->RepairWarning(), closed };
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -3,11 +3,13 @@
 #ifndef RectifiedTransport_SolidDensity_h
 #define RectifiedTransport_SolidDensity_h
 
+#include "Bridge/Triangles/ClosedSurface.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -28,9 +30,11 @@ struct SolidDensityReport
 {
   ImageGrid Grid;     // the whole image
   std::string Repair; // a warning; empty if the surface needed no repair
+  // In the index space of the cells.
+  std::shared_ptr<const ClosedSurface> Surface;
 };
 
-// The members are the properties of that class.
+// The members are the properties of that class, and what other filters say of them.
 struct SolidDensity
 {
   int Resolution;
@@ -38,6 +42,9 @@ struct SolidDensity
   double Padding;
   bool OnPoints;
   bool MayBeOpen; // OpenSurfaces
+  // What ends the error about an open surface, and what users know Resolution by.
+  std::string OpenAdvice = ". OpenSurfaces WindingNumber takes it with its holes";
+  const char* ResolutionName = "Resolution";
 
   // The grid of the image around a surface that is distributed over ranks; without points if there
   // is no surface. Collective. Throws Failure.

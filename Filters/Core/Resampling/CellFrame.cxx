@@ -35,17 +35,20 @@ std::string describe(const Eigen::Vector3d& x)
 [[noreturn]] void failFlat(const MassCells& mass, const Eigen::Vector3d& sides)
 {
   const int dimension = mass.Dimension;
-  fail("The input's cells are ",
-    dimension == 1          ? "lines that are not on one straight line"
-      : mass.AreClosedLines ? "closed lines that lie in no plane"
-                            : "faces that lie in no plane",
-    ": points are ", sides[2 - dimension], " off, with a longest side of ", sides[2], "; ",
-    mass.AreClosedLines ? "they must lie in one plane"
-      : dimension == 2
-      ? "they must lie in one plane, as a slice does (Sample Surface takes curved "
-        "surfaces that are disks)"
-      : "they must lie on one, or closed ones in a plane, around regions (Triangle "
-        "Strips joins the segments of a slice)");
+  std::ostringstream text;
+  text << "The input's cells are "
+       << (dimension == 1           ? "lines that are not on one straight line"
+              : mass.AreClosedLines ? "closed lines that lie in no plane"
+                                    : "faces that lie in no plane")
+       << ": points are " << sides[2 - dimension] << " off, with a longest side of " << sides[2]
+       << "; "
+       << (mass.AreClosedLines ? "they must lie in one plane"
+              : dimension == 2
+              ? "they must lie in one plane, as a slice does, or be the polygons of a closed "
+                "surface, as Extract Surface makes them"
+              : "they must lie on one, or closed ones in a plane, around regions (Triangle "
+                "Strips joins the segments of a slice)");
+  throw NotFlat(text.str());
 }
 
 // Calls visit(x) for the corners of all cells of a set with mass, each point once. Throws Failure
@@ -169,6 +172,38 @@ ImageGrid::Matrix axesAround(const Vector3d& direction, Eigen::Index main)
   axes.col(next) = along;
   axes.col((main + 2) % 3) = direction.cross(along);
   return axes;
+}
+
+// The points farthest from the first one, from the line through both, and from the plane of all
+// three.
+bool areInPlane(std::int64_t count, const std::function<void(std::int64_t, double*)>& positionOf)
+{
+  Vector3d first = Vector3d::Zero();
+  const auto farthest = [&](const auto& distance) {
+    Vector3d found = Vector3d::Zero(); // from the first
+    double most = 0.0;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      Vector3d x;
+      positionOf(i, x.data());
+      const double own = distance(x - first);
+      if (own > most && std::isfinite(own))
+      {
+        found = x - first;
+        most = own;
+      }
+    }
+    return found;
+  };
+  if (count > 0)
+  {
+    positionOf(0, first.data());
+  }
+  const Vector3d along = farthest([](const Vector3d& x) { return x.norm(); });
+  const Vector3d across = farthest([&](const Vector3d& x) { return along.cross(x).norm(); });
+  const Vector3d normal = along.cross(across).normalized();
+  const Vector3d off = farthest([&](const Vector3d& x) { return std::abs(normal.dot(x)); });
+  return std::abs(normal.dot(off)) <= flatness * along.norm();
 }
 
 // The axes of space serve where the cells are flat along them; else principal axes.

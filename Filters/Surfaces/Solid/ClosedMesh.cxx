@@ -33,19 +33,6 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 // Units of a slice of work with random memory access.
 constexpr std::int64_t slow = std::int64_t{ 1 } << 16;
 
-// Copies three coordinates a point. Sorts and hashes of later steps assume finite ones.
-void copyPoints(ConstPointSpan<3> points, double* copy, Progress& progress)
-{
-  progress.ForEachInOrder(points.size(), grain, [=](std::int64_t i) {
-    const double* point = points[i];
-    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
-    {
-      throw std::invalid_argument("point " + std::to_string(i) + " is not finite");
-    }
-    std::copy_n(point, 3, copy + 3 * i);
-  });
-}
-
 // Adds given triangles; throws std::invalid_argument for points that do not exist.
 void addTriangles(const TriangleSurface& surface, Progress& progress, ClosedMesh& mesh)
 {
@@ -119,32 +106,9 @@ ClosingDistances::ClosingDistances(const std::array<double, 6>& bounds, bool are
   this->Gaps = { 1e-5 * longest, 1e-4 * longest, 1e-3 * longest, 1e-2 * longest };
 }
 
-// Stages follow the cost: equal points alone close most surfaces.
-ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
-  : Coordinates(3 * surface.Points.size())
-{
-  Progress progress(context);
-  Stages stages(progress,
-    { { "points", 10 }, { "equal points", 30 }, { "triangles", 30 }, { "near points", 30 } });
-  copyPoints(surface.Points, this->Coordinates.data(), stages["points"]);
-  this->Merge(stages["equal points"]);
-  const AddFaces add = facesOf(surface);
-  this->Fill(add, stages["triangles"]);
-  if (!this->Closed)
-  {
-    this->CloseNear(add, NearDistance * this->LongestSide(), stages["near points"]);
-  }
-  progress.EndSlice(1);
-}
-
+// Firsts has for each point the first one with equal coordinates.
 ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
   : Coordinates(std::move(coordinates))
-{
-  this->Merge(context);
-}
-
-// Writes for each point the first one with equal coordinates, to Firsts.
-void ClosedMesh::Merge(const Context& context)
 {
   const ConstPointSpan<3> points = this->Points();
   this->Firsts = LargeBuffer<std::int64_t>(points.size());
@@ -291,17 +255,6 @@ bool ClosedMesh::MergeNear(double distance, const Context& context)
   this->Edges.reset();
   this->Closed = false;
   return true;
-}
-
-// The longest side of the bounds of the triangles; points of no triangle do not count.
-double ClosedMesh::LongestSide() const
-{
-  PointBounds bounds;
-  for (std::int64_t i = 0; i < 3 * this->NumberOfTriangles; ++i)
-  {
-    bounds.Add(this->Coordinates.data() + 3 * this->Triangles.data()[i]);
-  }
-  return std::max(0.0, bounds.Length(bounds.Longest()));
 }
 
 // Allocates three points a triangle; Add() does not check that there is room.

@@ -2,8 +2,8 @@
 // Closed surfaces of triangles: whether a mesh is one, and its triangles with consistent
 // orientation.
 //
-//   ClosedMesh mesh(surface);
-//   if (mesh.IsClosed() && mesh.Orient())
+//   ClosedMesh mesh(std::move(coordinates));
+//   if (mesh.Close(surface, ClosingDistances(bounds, false)).empty() && mesh.Orient())
 //     coverSolid(mesh.Solid(), cells, 2, coverage);
 #ifndef RectifiedTransport_ClosedMesh_h
 #define RectifiedTransport_ClosedMesh_h
@@ -48,17 +48,9 @@ struct ClosingDistances
 class ClosedMesh
 {
 public:
-  // Copies a surface, merges its points and counts its edges. If it is then open, points nearer
-  // than NearDistance times the longest side of the triangles' bounds are merged, too; if it is
-  // still open, it is cut at T-junctions. Throws
-  // std::invalid_argument for coordinates that are not finite and for triangles with points that do
-  // not exist.
-  explicit ClosedMesh(const TriangleSurface& surface, const Context& context = Context());
-
-  // The same in steps, for faces that are not triangles yet. First the points, three finite
-  // coordinates each: finds equal points by a hash table of the coordinates' bits, in linear time
-  // for any distribution. Memory: 8 bytes a point, temporarily up to 32. Then call Close(), or
-  // Reserve(), Add() and CountEdges().
+  // Three finite coordinates a point. Finds equal points by a hash table of the coordinates' bits,
+  // in linear time for any distribution. Memory: 8 bytes a point, temporarily up to 32. Then call
+  // Close(), or Reserve(), Add() and CountEdges().
   explicit ClosedMesh(LargeBuffer<double> coordinates, const Context& context = Context());
 
   // Calls Reserve() and Add() for all faces, as triangles on the points that FirstOf() gives.
@@ -132,12 +124,10 @@ public:
   SolidSurface Solid() const;
 
 private:
-  void Merge(const Context& context);
   std::string Fill(const AddFaces& add, Progress& progress);
   bool CloseNear(const AddFaces& add, double distance, Progress& progress);
   bool CloseWithin(double distance, Progress& progress);
   std::string Openness() const;
-  double LongestSide() const;
   void DropRepeated(const Context& context);
   void CountEdgesAlone(const Context& context);
 

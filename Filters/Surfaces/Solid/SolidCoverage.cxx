@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -229,6 +230,36 @@ void coverPartOfOpenSolid(const TriangleSurface& surface, const GridSize<3>& cel
       }
     },
     1);
+}
+
+// Rejection sampling: a low-discrepancy sequence that begins at the point fills the cell evenly,
+// and its first place inside is taken. Inside is where the winding number is not zero, which the
+// tree has within .07.
+void moveInside(const TriangleSurface& surface, PointSpan<3> points, const Context& context)
+{
+  constexpr Index grain = 256;
+  constexpr int tries = 1024;
+  constexpr Point<3> step{ 0.8191725133961645, 0.6710436067037893, 0.5497004779019703 };
+  Progress progress(context);
+  Stages stages(progress, { { "tree", 1 }, { "points", 1 } });
+  const WindingTree tree(surface, stages["tree"]);
+  stages["points"].ForEach(points.size(), grain, [&](Index i) {
+    double* point = points[i];
+    Point<3> place{ point[0], point[1], point[2] };
+    for (int t = 0; t < tries; ++t)
+    {
+      if (std::abs(tree.At(place)) > 0.5)
+      {
+        std::copy_n(place.begin(), 3, point);
+        return;
+      }
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        const double low = std::floor(point[a]);
+        place[a] = low + std::fmod(place[a] - low + step[a], 1.0);
+      }
+    }
+  });
 }
 
 } // namespace RectifiedTransport

@@ -6,6 +6,7 @@
 
 #include "../../Core/Geometry/GridSize.h"
 #include "../../Core/Geometry/LatticePart.h"
+#include "../../Core/Geometry/Points.h"
 #include "../../Core/Parallel/Context.h"
 #include "../Mesh/TriangleSurface.h"
 
@@ -68,6 +69,13 @@ CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& 
 void coverPartOfOpenSolid(const TriangleSurface& surface, const GridSize<3>& cells,
   const LatticePart<3>& part, int supersampling, double* coverage,
   const Context& context = Context());
+
+// Points that are distributed like a coverage are spread evenly in cells that are covered in part.
+// Moves those outside of the surface to another place in their cell that is inside. Where less than
+// about a thousandth of a cell is covered, some may stay. Triangles and points are in index space.
+// O((triangles + points) log triangles). Throws std::bad_alloc and Cancelled.
+void moveInside(
+  const TriangleSurface& surface, PointSpan<3> points, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

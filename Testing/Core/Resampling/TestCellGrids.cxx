@@ -9,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -53,6 +55,36 @@ TEST(CellFrame, ObliquePlane)
   EXPECT_NEAR(sides[2], std::hypot(3, 3), 1e-5);
   EXPECT_NEAR(
     (frame.Axes * frame.Axes.transpose() - ImageGrid::Matrix::Identity()).norm(), 0.0, 1e-14);
+}
+
+bool arePlane(const std::vector<Point<3>>& points)
+{
+  return areInPlane(
+    static_cast<std::int64_t>(points.size()), [&points](std::int64_t i, double* position) {
+      std::copy_n(points[static_cast<std::size_t>(i)].data(), 3, position);
+    });
+}
+
+TEST(CellFrame, PointsInAPlane)
+{
+  EXPECT_TRUE(arePlane({}));
+  EXPECT_TRUE(arePlane({ { 1, 2, 3 }, { 1, 2, 3 } }));
+  EXPECT_TRUE(arePlane({ { 1, 2, 3 }, { 3, 3, 4 }, { 5, 4, 5 } })); // on a line
+  std::vector<Point<3>> points;
+  for (int i = 0; i < 50; ++i)
+  {
+    const double u = i % 7;
+    const double v = i * i % 11;
+    points.push_back({ 1e3 + u + v, 2.0 * u - v, 5.0 - u });
+  }
+  EXPECT_TRUE(arePlane(points));
+  points[9][1] = std::nan("");
+  points[17][0] = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(arePlane(points));
+  points[30][2] += 1e-6;
+  EXPECT_TRUE(arePlane(points));
+  points[30][2] += 1e-2;
+  EXPECT_FALSE(arePlane(points));
 }
 
 // Whether the error for cells without a frame has these words.

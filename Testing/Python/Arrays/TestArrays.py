@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rectifiedtransport.arrays: numpy in, numpy out, with the bits of the filters. Missing data are in
-TestArraysMissing.py, errors and warnings in TestArraysErrors.py."""
+TestArraysMissing.py, errors and warnings in TestArraysErrors.py, triangles and regions in
+TestArraysSurfaces.py and TestArraysCartogram.py."""
 import gc
 import inspect
 import pydoc
@@ -135,9 +136,10 @@ class Bits(unittest.TestCase):
                     run.SetWeight(i, weight)
                 run.Update()
                 same(arrays.barycenter([FLAT, OTHER, FLAT[::-1]], weights),
-                     array_of(run.GetDensity().GetPointData(), "Density").reshape(20, 30))
+                     vtk_to_numpy(run.GetDensity().GetPointData().GetScalars()).reshape(20, 30))
         same(arrays.barycenter(np.stack([FLAT, OTHER])), arrays.barycenter([FLAT, OTHER], [3, 3]))
         self.assertEqual(arrays.barycenter([SOLID, SOLID[::-1]]).shape, SOLID.shape)
+        same(arrays.barycenter([FLAT, OTHER], ResultArrayName="rho"), arrays.barycenter([FLAT, OTHER]))
 
     def test_distance(self):
         run = filtered("vtkTransportDistance", [image_of(FLAT, **PLACED), image_of(OTHER, **PLACED)],
@@ -376,7 +378,7 @@ class Texts(unittest.TestCase):
 
     def test_functions(self):
         """Each argument has a hint and a text; so have units, shapes and errors."""
-        self.assertEqual(len(FUNCTIONS), 8)
+        self.assertEqual(len(FUNCTIONS), 12)
         for name in FUNCTIONS:
             function = getattr(arrays, name)
             with self.subTest(name):
@@ -386,8 +388,9 @@ class Texts(unittest.TestCase):
                     self.assertIn(argument, hints)
                     self.assertRegex(text, r"(?m)^(\w+, )?%s\b" % argument)
                 self.assertIn("return", hints)
-                for word in "\nReturns ", "\nRaises ", "[":
+                for word in "\nReturns ", "\nRaises ":
                     self.assertIn(word, text)
+                self.assertRegex(text, r"\[|\(n")
 
     def test_without_numpy(self):
         """The classes need no numpy, if VTK's own do not; the functions come when they are asked for."""

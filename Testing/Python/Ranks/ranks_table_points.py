@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of TestRanksTable.py: filters that take particles."""
+"""Rows of TestRanksTable.py: filters that take particles, or fill closed surfaces with them."""
 from paraview import simple
 from ranks_rows import give, give_row, redistributed
 
@@ -66,6 +66,20 @@ def give_rows(inputs):
     images = {name: inputs[name] for name in ("points", "cells", "flat", "ghosts")}
     give_splats(images["points"], images["flat"], images["ghosts"])
     give_qualities(images)
+    give_solids()
+
+
+def give_solids():
+    """Inside a closed surface in pieces: where it is new, and where another filter has updated it."""
+    usual = dict(DensityResolution=12, NumberOfSteps=8)
+    ball = simple.Sphere(ThetaResolution=24)
+    apart = simple.ExtractSurface(Input=redistributed(Input=simple.Sphere(ThetaResolution=24)))
+    other = simple.Sphere(Center=[0.5, 0, 0], Radius=0.4)
+    for name, surface in (("ball", ball), ("ball apart", apart)):
+        give("morph of a new " + name, simple.MorphDensities(surface, Target=other, **usual))
+        give("inside a " + name, simple.SampleDensity(surface, NumberOfParticles=300, **usual))
+        give("map of a " + name, simple.TransportMap(surface, **usual))
+        give("morph of a " + name, simple.MorphDensities(surface, Target=other, **usual))
 
 
 def spread(where):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges of four triangles and more, triangles that are there twice, and seams of rounding, up to
 // the volume.
+#include "ClosedMeshes.h"
 #include "SolidSurfaces.h"
-#include "Surfaces/Solid/ClosedMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace
 
 std::vector<double> coverClosed(const Mesh& mesh, const GridSize<3>& cells)
 {
-  ClosedMesh closed(mesh.Surface());
+  ClosedMesh closed = closedMesh(mesh.Surface());
   EXPECT_TRUE(closed.IsClosed()) << closed.OpenEdges() << " " << closed.NonManifoldEdges();
   EXPECT_TRUE(closed.Orient());
   std::vector<double> coverage(static_cast<std::size_t>(numberOfCells<3>(cells)), -1.0);
@@ -177,7 +177,7 @@ TEST(TouchingSolids, TrianglesThatAreThereTwice)
   // All of it in both directions encloses nothing.
   Mesh none = makeBox({ 1, 1, 1 }, { 3, 3, 3 });
   none.Add(none.Turned());
-  ClosedMesh closed(none.Surface());
+  ClosedMesh closed = closedMesh(none.Surface());
   EXPECT_TRUE(closed.IsClosed());
   EXPECT_EQ(closed.Surface().NumberOfTriangles, 0);
 }
@@ -189,7 +189,7 @@ TEST(TouchingSolids, OddEdges)
   mesh.Add(makeBox({ 1, 1, 0 }, { 2, 2, 1 }));
   mesh.Points.push_back({ 3, 3, 3 });
   mesh.Triangles.push_back({ 0, 1, static_cast<std::int64_t>(mesh.Points.size()) - 1 });
-  ClosedMesh fin(mesh.Surface());
+  ClosedMesh fin = closedMesh(mesh.Surface());
   EXPECT_FALSE(fin.IsClosed());
   EXPECT_EQ(fin.OpenEdges(), 2);
   EXPECT_EQ(fin.NonManifoldEdges(), 1);
@@ -227,9 +227,9 @@ TEST(TouchingSolids, SeamsOfRounding)
     // Points that no triangle has do not count.
     Mesh far = mesh;
     far.Points.push_back({ 1e20, 0.0, 0.0 });
-    EXPECT_TRUE(ClosedMesh(far.Surface()).IsClosed());
+    EXPECT_TRUE(closedMesh(far.Surface()).IsClosed());
   }
-  ClosedMesh open(torus(1e-6).Surface());
+  ClosedMesh open = closedMesh(torus(1e-6).Surface());
   EXPECT_FALSE(open.IsClosed());
   EXPECT_EQ(open.OpenEdges(), 120);
 }
