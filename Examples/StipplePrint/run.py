@@ -50,6 +50,9 @@ def main():
         exponent=dict(type=float, default=0.5,
                       help="the density is ink to this power, the dots' sizes do the rest; not of "
                            "equal (default: %(default)s)"),
+        order=dict(choices=["File", "Path"], default="File",
+                   help="of the dots in the files; Path: a short one, for plotters (default: "
+                        "%(default)s)"),
         panel=480)
     arguments = parser.parse_args()
     if not 0 < arguments.exponent <= 1:
@@ -63,7 +66,7 @@ def main():
         discs, ink = dots(colours, style, arguments.particles, arguments.exponent)
         path = example.output(arguments, name + "-" + style)
         for ending in ".svg", ".pdf":
-            pages.write(path + ending, discs, arguments.width)
+            pages.write(path + ending, discs, arguments.width, arguments.order)
         panels.append(pages.pictures(discs, arguments.panel, [1, DETAIL]))
         unit = arguments.width / discs.size[0]
         rows.append([style, "%d" % len(discs.points),

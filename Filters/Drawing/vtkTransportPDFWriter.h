@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportPDFWriter
- * @brief   writes dots, lines and polygons as PDF 1.4, for print
+ * @brief   writes dots, lines and polygons as PDF 1.4, with layers 1.5, for print
  *
  * Greys are printed with black ink alone. Discs are one shape that is drawn many times, of about 7
  * bytes each. The page is at most 5080 mm (200 inches) long.

@@ -100,6 +100,7 @@ int vtkTransportVectorWriter::RequestData(
   std::vector<LayerData> data;
   int withColours = 0;
   int withRadii = 0;
+  int withLayers = 0;
   const std::vector<DensityBlock> blocks = densityBlocks(vtkDataObject::GetData(inputVector[0]));
   for (const DensityBlock& block : blocks)
   {
@@ -109,12 +110,16 @@ int vtkTransportVectorWriter::RequestData(
       findOptionalArray(this->GetInputArrayInformation(0), shapes, "ColorArray");
     const OptionalArray radii =
       findOptionalArray(this->GetInputArrayInformation(1), shapes, "RadiusArray");
+    const OptionalArray layers =
+      findOptionalArray(this->GetInputArrayInformation(2), shapes, "LayerArray");
     data.push_back({ PolyDataShapes(shapes, "input"), arrayOf(colours, withColours),
-      colours.OnPoints, vtkDataArray::SafeDownCast(arrayOf(radii, withRadii)) });
+      colours.OnPoints, vtkDataArray::SafeDownCast(arrayOf(radii, withRadii)),
+      { arrayOf(layers, withLayers), layers.OnPoints, layers.Name } });
     if (&block == &blocks.back())
     {
       requireArray(withColours, "ColorArray", colours.Name, shapes);
       requireArray(withRadii, "RadiusArray", radii.Name, shapes);
+      requireArray(withLayers, "LayerArray", layers.Name, shapes);
     }
   }
 

@@ -14,8 +14,11 @@
  * as they are; any other array is mapped by LookupTable. With colors on points, a polygon has the
  * mean color of its points, and each segment of a line the mean of its two ends. Without this array
  * everything is black, and polygons are outlined instead of filled. Input array 1 is the
- * RadiusArray: one component a point, in units of the data. Data sets of a composite that lack an
- * array are drawn as without it.
+ * RadiusArray: one component a point, in units of the data. Input array 2 is the LayerArray, of
+ * points or cells: each of its values, at most 100 whole numbers or texts, is a layer with the
+ * label "name value", a group of Inkscape in SVG and an optional content group in PDF. A higher
+ * value lies on top, and a shape with values on points has that of its first one. Data sets of a
+ * composite that lack an array are drawn as without it, below all layers.
  *
  * The whole drawing fits on the page, the discs' radii and half of the LineWidth included, unless
  * PageBounds are set: then these are what the page shows, and the rest is cut off. Points and cells
@@ -28,7 +31,8 @@
  * 0 writes them all.
  *
  * Cost: O(n) for n points and cells, and O(n log n) for the radius of n vertices, if it is not
- * given. Memory: 24 bytes a point that is not double, and 40 a vertex for its radius.
+ * given. Memory: 24 bytes a point that is not double, 40 a vertex for its radius, and 8 an edge for
+ * the automatic LineWidth.
  *
  * @sa vtkTransportSVGWriter vtkTransportPDFWriter
  */
@@ -101,7 +105,8 @@ public:
 
   ///@{
   /**
-   * The width of lines and of the outlines of polygons, in millimetres, above 0. Default 0.25.
+   * The width of lines and of the outlines of polygons, in millimetres, 0 or more. Default 0: a
+   * quarter of the median length of edges, from 0.05 to 0.25.
    */
   vtkSetMacro(LineWidth, double);
   vtkGetMacro(LineWidth, double);
@@ -129,8 +134,8 @@ public:
 
   ///@{
   /**
-   * The order of the dots of each data set. File (default): as they are. Path: along a short path,
-   * for plotters.
+   * The order of the dots of each data set, in each layer. File (default): as they are. Path: along
+   * a short path, for plotters.
    */
   vtkSetMacro(Order, int);
   vtkGetMacro(Order, int);
@@ -171,7 +176,7 @@ protected:
   double PageMargin = 0.0;
   double PageBounds[6] = {};
   double PointRadius = 0.0;
-  double LineWidth = 0.25;
+  double LineWidth = 0.0;
   vtkTypeBool FillOutlines = false;
   int Order = ORDER_FILE;
   vtkScalarsToColors* LookupTable = nullptr;

@@ -195,7 +195,8 @@ private:
   {
     this->Writer->SetWidth(this->Random.Of({ 100.0, 1.0, 1000.0, 0.5 }));
     this->Writer->SetPageMargin(this->Random.Of({ 0.0, 0.0, 3.0 }));
-    this->Writer->SetLineWidth(this->Random.Of({ 0.25, 0.01, 2.0 }));
+    this->Writer->SetLineWidth(this->Random.Of({ 0.0, 0.25, 0.01, 2.0 }));
+    this->Writer->SetOrder(this->Random.Of({ 0, 0, 1 }));
     this->Writer->SetPointRadius(this->Random.Of({ 0.0, 0.0, 0.1, 1e300 }));
     this->Writer->SetFillOutlines(this->Random.Chance(0.5));
     if (this->Random.Chance(0.2))
@@ -204,6 +205,8 @@ private:
     }
     this->Writer->SetInputArrayToProcess(0, 0, 0, this->Random.Of({ 0, 1 }),
       this->Random.Of({ "None", "v", "p", "Mass", "Land", "None" }));
+    this->Writer->SetInputArrayToProcess(
+      2, 0, 0, this->Random.Of({ 0, 1 }), this->Random.Of({ "None", "None", "None", "Land", "v" }));
   }
 
   void Keep(const std::string& name, const std::string& text, mode_t mode = 0644)

@@ -33,7 +33,7 @@ public:
   // All outlines of a region are one path, filled by the even-odd rule: an outline within another
   // one is a hole.
   // The colour is that of the first outline's cell, or the mean of all points.
-  void PaintRegions()
+  void PaintRegions(const vtkVariant& group)
   {
     std::vector<vtkIdType> points;
     std::vector<PagePath> area;
@@ -47,9 +47,12 @@ public:
         area.push_back(this->Path);
         points.insert(points.end(), outline.Points.begin(), outline.Points.end());
       }
-      const auto count = static_cast<vtkIdType>(points.size());
-      this->Page.FillPolygons(area, FillRule::Odd,
-        this->Painted.Colours.Of({ ShapeKind::Polygon, points.data(), count, region[0].Cell }));
+      const Shape shape{ ShapeKind::Polygon, points.data(), static_cast<vtkIdType>(points.size()),
+        region[0].Cell };
+      if (this->Painted.Groups.Of(shape) == group)
+      {
+        this->Page.FillPolygons(area, FillRule::Odd, this->Painted.Colours.Of(shape));
+      }
     }
   }
 
@@ -136,6 +139,7 @@ private:
 DrawingLayer::DrawingLayer(
   const LayerData& data, bool fillsOutlines, vtkScalarsToColors* table, Progress& progress)
   : Shapes(data.Shapes)
+  , Groups(data.Groups)
   , Points(data.Shapes.Data()->GetPoints()->GetData(), progress)
 {
   if (data.Colours)
@@ -162,15 +166,19 @@ DrawingLayer::DrawingLayer(
   }
 }
 
-void DrawingLayer::Draw(
-  const PageLayout& layout, Drawing& drawing, bool hasShortPath, Progress& progress) const
+void DrawingLayer::Draw(const PageLayout& layout, Drawing& drawing, const vtkVariant& group,
+  bool hasShortPath, Progress& progress) const
 {
   LayerPainter painter(*this, layout, drawing);
-  painter.PaintRegions(); // below the rest
+  painter.PaintRegions(group); // below the rest
   // Filled polygons first, then lines and dots, in the order of PolyDataShapes.
   std::vector<Point<2>> places;
   std::vector<std::array<vtkIdType, 2>> dots; // point and cell
   this->Shapes.ForEach(progress, [&](const Shape& shape) {
+    if (this->Groups.Of(shape) != group)
+    {
+      return;
+    }
     if (!hasShortPath || shape.Kind != ShapeKind::Dot)
     {
       painter.Paint(shape);

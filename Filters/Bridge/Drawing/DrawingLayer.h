@@ -35,12 +35,13 @@ public:
   {
     return !this->Outlines.empty() && this->Outlines[static_cast<std::size_t>(cell)];
   }
-  // With a short path the dots come in its order. Throws Failure, if the drawing cannot be written,
-  // and Cancelled.
-  void Draw(
-    const PageLayout& layout, Drawing& drawing, bool hasShortPath, Progress& progress) const;
+  // Draws the shapes of a group. With a short path the dots come in its order. Throws Failure, if
+  // the drawing cannot be written, and Cancelled.
+  void Draw(const PageLayout& layout, Drawing& drawing, const vtkVariant& group, bool hasShortPath,
+    Progress& progress) const;
 
   const PolyDataShapes& Shapes;
+  const ShapeGroups& Groups;
   DoubleTuples Points;
   ShapeColours Colours;
   std::optional<DoubleTuples> Radii;

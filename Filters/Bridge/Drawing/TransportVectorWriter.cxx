@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace RectifiedTransport::Bridge
 {
@@ -119,6 +120,47 @@ void requireColours(vtkAbstractArray* array, vtkScalarsToColors* table)
   }
 }
 
+void includeGroup(const ShapeGroups& given, const Shape& shape, std::set<vtkVariant>& groups)
+{
+  constexpr std::size_t most = 100;
+  constexpr double largest = 1e15; // Doubles below it hold integers exactly.
+  const vtkVariant group = given.Of(shape);
+  const double value = group.IsNumeric() ? group.ToDouble() : 0.0;
+  if (std::floor(value) != value || !(std::abs(value) < largest))
+  {
+    fail(titleOf("LayerArray", given.Array), " has the value ", value,
+      "; layers need whole numbers or texts: choose another array, or round it with Calculator");
+  }
+  groups.insert(group);
+  if (groups.size() - groups.count(vtkVariant()) > most)
+  {
+    fail(titleOf("LayerArray", given.Array), " has more than ", most,
+      " values; each of them is a layer: choose an array with fewer values");
+  }
+}
+
+// A quarter of the median edge of what is stroked, but not below 0.05 mm, which pens cannot draw.
+double widthOfLines(
+  const std::vector<DrawingLayer>& layers, const PageLayout& layout, Progress& progress)
+{
+  std::vector<double> lengths;
+  for (const DrawingLayer& layer : layers)
+  {
+    layer.Shapes.ForEach(progress, [&](const Shape& shape) {
+      const vtkIdType edges = shape.Count - (shape.Kind == ShapeKind::Polygon ? 0 : 1);
+      for (vtkIdType i = 0; isStroked(layer, shape) && i < edges; ++i)
+      {
+        const Point<2> a = layout.At(layer.At(shape.Points[i]));
+        const Point<2> b = layout.At(layer.At(shape.Points[(i + 1) % shape.Count]));
+        lengths.push_back(std::hypot(a[0] - b[0], a[1] - b[1]));
+      }
+    });
+  }
+  const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), median, lengths.end());
+  return lengths.empty() ? 0.25 : std::clamp(0.25 * *median, 0.05, 0.25);
+}
+
 } // namespace
 
 // Lengths of the page are millimetres, PointRadius is in units of the data. Properties are checked
@@ -131,7 +173,8 @@ void TransportVectorWriter::Check() const
   const PageSettings& page = this->Page;
   require("Width", page.Width, page.Width > 0.0, "more than 0 (millimetres)");
   require("PageMargin", page.Margin, page.Margin >= 0.0, "0 or more (millimetres)");
-  require("LineWidth", page.LineWidth, page.LineWidth > 0.0, "more than 0 (millimetres)");
+  require("LineWidth", page.LineWidth, page.LineWidth >= 0.0,
+    "more than 0 (millimetres), or 0 for a quarter of the median edge");
   page.CheckBounds();
   require("PointRadius", this->PointRadius, this->PointRadius >= 0.0,
     "more than 0, or 0 for a radius from the spacing");
@@ -165,6 +208,13 @@ void TransportVectorWriter::Run(
       requireScalars(
         drawn.Radii, titleOf("RadiusArray", drawn.Radii), own->GetNumberOfPoints(), "points");
     }
+    if (drawn.Groups.Array)
+    {
+      const bool onPoints = drawn.Groups.OnPoints;
+      requireScalars(drawn.Groups.Array, titleOf("LayerArray", drawn.Groups.Array),
+        onPoints ? own->GetNumberOfPoints() : own->GetNumberOfCells(),
+        onPoints ? "points" : "cells");
+    }
   }
 
   std::vector<DrawingLayer> layers;
@@ -176,12 +226,16 @@ void TransportVectorWriter::Run(
   {
     layers.emplace_back(drawn, this->FillOutlines, table, reading);
   }
-  // Twice, as the places of dots may be collected by a second visit.
-  Progress& visits = stages["extent"].Expect(2 * shapes);
+  // Further visits may collect the places of dots and the lengths of edges.
+  Progress& visits = stages["extent"].Expect(3 * shapes);
   DrawingExtent extent;
+  std::set<vtkVariant> groups; // in the order in which they are drawn
   for (const DrawingLayer& layer : layers)
   {
-    layer.Shapes.ForEach(visits, [&](const Shape& shape) { include(layer, shape, extent); });
+    layer.Shapes.ForEach(visits, [&](const Shape& shape) {
+      include(layer, shape, extent);
+      includeGroup(layer.Groups, shape, groups);
+    });
   }
   if (extent.NumberOfDots > 0)
   {
@@ -209,13 +263,26 @@ void TransportVectorWriter::Run(
                     : "The input has no points; there is nothing to draw");
   }
   // All that can be wrong with properties and data has been found before the drawing begins.
-  const PageLayout layout = this->Page.Layout(extent, drawing.LongestSide());
-  drawing.Begin(
-    { layout.Size(), this->Page.HasBounds() ? this->Page.Margin : 0.0, this->Page.LineWidth });
-  Progress& painting = stages["drawing"].Expect(shapes);
-  for (const DrawingLayer& layer : layers)
+  PageSettings page = this->Page;
+  if (page.LineWidth == 0.0)
   {
-    layer.Draw(layout, drawing, this->HasShortPath, painting);
+    // The page's scale without a border for the lines is less than one per cent off.
+    page.LineWidth = widthOfLines(layers, page.Layout(extent, drawing.LongestSide()), visits);
+  }
+  const PageLayout layout = page.Layout(extent, drawing.LongestSide());
+  drawing.Begin({ layout.Size(), page.HasBounds() ? page.Margin : 0.0, page.LineWidth });
+  Progress& painting = stages["drawing"].Expect(shapes * static_cast<std::int64_t>(groups.size()));
+  for (const vtkVariant& group : groups)
+  {
+    if (group.IsValid()) // Shapes without a value are in no layer.
+    {
+      drawing.BeginLayer(data.front().Groups.Name + ' ' +
+        (group.IsNumeric() ? std::to_string(group.ToTypeInt64()) : group.ToString()));
+    }
+    for (const DrawingLayer& layer : layers)
+    {
+      layer.Draw(layout, drawing, group, this->HasShortPath, painting);
+    }
   }
   drawing.End();
 }

@@ -4,6 +4,7 @@
 #define RectifiedTransport_TransportVectorWriter_h
 
 #include "Bridge/Drawing/PolyDataShapes.h"
+#include "Bridge/Drawing/ShapeGroups.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Drawing/PageLayout.h"
 #include "Core/Parallel/Progress.h"
@@ -32,6 +33,7 @@ struct LayerData
   vtkAbstractArray* Colours; // nullptr: black
   bool HasColoursOnPoints;
   vtkDataArray* Radii; // one a point; nullptr: PointRadius
+  ShapeGroups Groups;  // LayerArray
 };
 
 // The members are the properties of that class.

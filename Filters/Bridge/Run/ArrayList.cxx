@@ -25,7 +25,7 @@ std::string listArrays(vtkDataSetAttributes* attributes, const std::string& owne
 }
 
 void requireScalars(
-  vtkDataArray* array, const std::string& title, vtkIdType count, const std::string& owners)
+  vtkAbstractArray* array, const std::string& title, vtkIdType count, const std::string& owners)
 {
   const int components = array->GetNumberOfComponents();
   if (components != 1)

@@ -10,7 +10,7 @@
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkDataArray;
+class vtkAbstractArray;
 class vtkDataSetAttributes;
 VTK_ABI_NAMESPACE_END
 
@@ -23,7 +23,7 @@ std::string listArrays(vtkDataSetAttributes* attributes, const std::string& owne
 // Throws Failure unless an array has one component and a value for each of `count` points or cells,
 // which `owners` names. `title` begins the message.
 void requireScalars(
-  vtkDataArray* array, const std::string& title, vtkIdType count, const std::string& owners);
+  vtkAbstractArray* array, const std::string& title, vtkIdType count, const std::string& owners);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -6,6 +6,7 @@
 #include "Core/Geometry/Points.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace RectifiedTransport
@@ -56,6 +57,8 @@ public:
   virtual double LongestSide() const = 0;
 
   virtual void Begin(const DrawingPage& page) = 0;
+  // What follows belongs to a layer of this label in UTF-8, until the next one begins.
+  virtual void BeginLayer(const std::string& label) = 0;
   virtual void FillDisc(const PagePoint& centre, double radius, Colour colour) = 0;
   // Fills polygons as one area: no seams show where they touch.
   virtual void FillPolygons(

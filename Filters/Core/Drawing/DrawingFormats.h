@@ -17,7 +17,8 @@ class OutputFile;
 // Compresses in the format of zlib.
 using Compress = std::string(std::string_view data);
 
-// Drawings in SVG 1.1 and PDF 1.4 (ISO 32000-1). The file must outlive the drawing.
+// Drawings in SVG 1.1 and PDF 1.4, or 1.5 with layers (ISO 32000-1). The file must outlive the
+// drawing.
 std::unique_ptr<Drawing> newSvgDrawing(OutputFile& file);
 std::unique_ptr<Drawing> newPdfDrawing(OutputFile& file, Compress* compress);
 

@@ -3,6 +3,7 @@
 #include "Core/Drawing/DrawingFormats.h"
 #include "Core/Drawing/OutputFile.h"
 
+#include <algorithm>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,18 @@ std::string opacityName(std::size_t opacity)
   return "/Opacity" + std::to_string(opacity);
 }
 
+// A text as hexadecimal digits; a mark begins those in UTF-8 (ISO 32000-2, 7.9.2.2).
+std::string hexadecimal(std::string_view text)
+{
+  const auto isAscii = [](char byte) { return static_cast<unsigned char>(byte) < 0x80; };
+  std::string digits = std::all_of(text.begin(), text.end(), isAscii) ? "<" : "<EFBBBF";
+  for (const unsigned char byte : text)
+  {
+    digits += { "0123456789ABCDEF"[byte / 16], "0123456789ABCDEF"[byte % 16] };
+  }
+  return digits + '>';
+}
+
 // VTK's libharu has neither compression nor shapes that are drawn many times, and keeps the page in
 // memory: a disc takes 260 bytes instead of about 7.
 class PdfDrawing final : public Drawing
@@ -68,6 +81,15 @@ public:
       appendAll(this->Text, margin, ' ', margin, ' ', page.Size[0] - 2.0 * margin, ' ',
         page.Size[1] - 2.0 * margin, " re W n\n");
     }
+  }
+
+  // A layer is an optional content group, which readers list and can hide (ISO 32000-1, 8.11).
+  void BeginLayer(const std::string& label) override
+  {
+    this->Text += this->Layers.empty() ? "" : "EMC\n";
+    this->Layers.push_back(this->NewObject());
+    this->WriteObject(this->Layers.back(), "<< /Type /OCG /Name " + hexadecimal(label) + " >>");
+    this->Text += "/OC /Layer" + std::to_string(this->Layers.back()) + " BDC\n";
   }
 
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override
@@ -103,6 +125,7 @@ public:
 
   void End() override
   {
+    this->Text += this->Layers.empty() ? "" : "EMC\n";
     this->WriteContent();
     // An extended graphics state for each opacity in use; PDF 1.4 has transparency only there.
     std::string states;
@@ -118,6 +141,13 @@ public:
     // other.
     const std::size_t pages = this->NewObject();
     const std::size_t page = this->NewObject();
+    std::string layers;
+    std::string named;
+    for (const std::size_t layer : this->Layers)
+    {
+      layers += reference(layer);
+      named += "/Layer" + std::to_string(layer) + ' ' + reference(layer);
+    }
     std::string contents;
     for (const std::size_t content : this->Contents)
     {
@@ -126,11 +156,15 @@ public:
     std::string text = "<< /Type /Page /Parent ";
     appendAll(text, reference(pages), "/MediaBox [0 0 ", PointsPerMillimetre * this->Size[0], ' ',
       PointsPerMillimetre * this->Size[1], " \n]\n/Resources << /XObject << /Disc ",
-      reference(this->Disc), ">> /ExtGState <<\n", states, ">> >>\n/Contents [", contents, "] >>");
+      reference(this->Disc), ">> /ExtGState <<\n", states, ">> /Properties << ", named,
+      ">> >>\n/Contents [", contents, "] >>");
     this->WriteObject(page, text);
     this->WriteObject(pages, "<< /Type /Pages /Count 1 /Kids [" + reference(page) + "] >>");
     const std::size_t root = this->NewObject();
-    this->WriteObject(root, "<< /Type /Catalog /Pages " + reference(pages) + ">>");
+    const std::string optional =
+      "/Version /1.5 /OCProperties << /OCGs [" + layers + "] /D << /Order [" + layers + "] >> >> ";
+    this->WriteObject(root,
+      "<< /Type /Catalog /Pages " + reference(pages) + (layers.empty() ? "" : optional) + ">>");
     this->WriteTable(root);
   }
 
@@ -239,7 +273,8 @@ private:
   Compress* const Pack;
   std::vector<std::int64_t> Offsets; // offset of each object in the file
   std::vector<std::size_t> Contents; // the page's streams
-  std::string Text;                  // content of the next stream
+  std::vector<std::size_t> Layers;
+  std::string Text; // content of the next stream
   PagePoint Size{};
   // The graphics state of the content so far.
   Colour FillColour;

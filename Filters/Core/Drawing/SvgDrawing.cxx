@@ -45,8 +45,27 @@ public:
     {
       appendAll(this->Text, "<clipPath id=\"inside\"><rect x=\"", margin, "\" y=\"", margin,
         "\" width=\"", size[0] - 2.0 * margin, "\" height=\"", size[1] - 2.0 * margin,
-        "\"/></clipPath>\n<g clip-path=\"url(#inside)\">\n");
+        "\"/></clipPath>\n");
     }
+  }
+
+  // Programs for plotters take the groups of the first level as layers, so that each one is
+  // clipped.
+  void BeginLayer(const std::string& label) override
+  {
+    this->EnterGroup(Group::None);
+    this->Text += this->HasLayer ? "</g>\n" : "";
+    this->Text += "<g xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+                  "inkscape:groupmode=\"layer\" inkscape:label=\"";
+    for (const char character : label)
+    {
+      const bool isMarkup = std::string_view("&<\"").find(character) != std::string_view::npos;
+      const bool isControl = static_cast<unsigned char>(character) < ' ';
+      this->Text += isMarkup ? "&#" + std::to_string(character) + ';'
+                             : std::string(1, isControl ? ' ' : character);
+    }
+    this->Text += this->IsClipped ? "\" clip-path=\"url(#inside)\">\n" : "\">\n";
+    this->HasLayer = true;
   }
 
   void FillDisc(const PagePoint& centre, double radius, Colour colour) override
@@ -96,7 +115,7 @@ public:
   void End() override
   {
     this->EnterGroup(Group::None);
-    this->Text += this->IsClipped ? "</g>\n</svg>\n" : "</svg>\n";
+    this->Text += this->HasLayer ? "</g>\n</svg>\n" : "</svg>\n";
     this->File.Write(this->Text);
   }
 
@@ -119,6 +138,11 @@ private:
     if (this->Open != Group::None)
     {
       this->Text += "</g>\n";
+    }
+    if (this->IsClipped && !this->HasLayer)
+    {
+      this->Text += "<g clip-path=\"url(#inside)\">\n";
+      this->HasLayer = true;
     }
     // Opaque black is the default of both groups, since most drawings have it.
     if (group == Group::Fills)
@@ -173,6 +197,7 @@ private:
   double Height = 0.0;
   double StrokeWidth = 0.0;
   bool IsClipped = false;
+  bool HasLayer = false; // whether a group around those of shapes is open
   Group Open = Group::None;
 };
 

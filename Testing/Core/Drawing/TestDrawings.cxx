@@ -90,6 +90,52 @@ TEST(Drawings, Pdf)
   }
 }
 
+// Two layers on a page with a margin, the second with a shape of each group.
+void drawLayers(Drawing& drawing)
+{
+  drawing.Begin({ { 20.0, 10.0 }, 1.0, 0.25 });
+  drawing.BeginLayer("Pen 1");
+  drawing.FillDisc({ 5.0, 2.5 }, 1.0, black);
+  drawing.BeginLayer("\xC3\xA9 & \xF0\x9F\x96\x8A");
+  drawing.FillDisc({ 5.0, 2.5 }, 1.0, black);
+  drawing.Stroke({ { 0.0, 0.0 }, { 20.0, 10.0 } }, false, black);
+  drawing.End();
+}
+
+TEST(Drawings, SvgLayers)
+{
+  OutputFile file(place().string());
+  drawLayers(*newSvgDrawing(file));
+  file.Close();
+  const std::string layer = "<g xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+                            "inkscape:groupmode=\"layer\" inkscape:label=";
+  const std::string disc = "<g fill=\"#000000\" stroke=\"none\">\n"
+                           "<circle cx=\"5\" cy=\"7.5\" r=\"1\"/>\n</g>\n";
+  const std::string text = takeText();
+  EXPECT_EQ(text.substr(text.find("</clipPath>\n") + 12),
+    layer + "\"Pen 1\" clip-path=\"url(#inside)\">\n" + disc + "</g>\n" + layer +
+      "\"\xC3\xA9 &#38; \xF0\x9F\x96\x8A\" clip-path=\"url(#inside)\">\n" + disc +
+      "<g fill=\"none\" stroke=\"#000000\" stroke-linecap=\"round\" stroke-linejoin=\"round\" "
+      "stroke-width=\"0.25\">\n<polyline points=\"0,10 20,0\"/>\n</g>\n</g>\n</svg>\n");
+}
+
+TEST(Drawings, PdfLayers)
+{
+  OutputFile file(place().string());
+  drawLayers(*newPdfDrawing(file, [](std::string_view data) { return std::string(data); }));
+  file.Close();
+  const std::string text = takeText();
+  EXPECT_NE(text.find("/OC /Layer2 BDC\nq 1 0 0 1 5 2.5 cm /Disc Do Q\nEMC\n/OC /Layer3 BDC\n"),
+    std::string::npos);
+  EXPECT_NE(text.find("S\nEMC\n"), std::string::npos);
+  EXPECT_NE(text.find("2 0 obj\n<< /Type /OCG /Name <50656E2031> >>\n"), std::string::npos);
+  EXPECT_NE(text.find("/Name <EFBBBFC3A9202620F09F968A>"), std::string::npos);
+  EXPECT_NE(text.find("/Properties << /Layer2 2 0 R /Layer3 3 0 R >>"), std::string::npos);
+  EXPECT_NE(text.find("/Version /1.5 /OCProperties << /OCGs [2 0 R 3 0 R ] /D << /Order [2 0 R "
+                      "3 0 R ] >> >>"),
+    std::string::npos);
+}
+
 TEST(Drawings, FilesThatAreNotClosedAreRemoved)
 {
   {
@@ -106,6 +152,7 @@ class FillCounter final : public Drawing
 public:
   double LongestSide() const override { return 1.0; }
   void Begin(const DrawingPage&) override {}
+  void BeginLayer(const std::string&) override {}
   void FillDisc(const PagePoint&, double, Colour) override {}
   void FillPolygons(const std::vector<PagePath>& polygons, FillRule, Colour) override
   {

@@ -83,12 +83,14 @@ void checkProperties(Checks& checks, vtkTransportVectorWriter* writer)
     writer->SetWidth(bad);
     test.Expect({ "Width is ", "more than 0 (millimetres)" }, __LINE__);
     writer->SetWidth(100);
-    writer->SetLineWidth(bad);
-    test.Expect({ "LineWidth is ", "more than 0 (millimetres)" }, __LINE__);
-    writer->SetLineWidth(0.25);
   }
   for (const double bad : { -1.0, notANumber, infinity })
   {
+    writer->SetLineWidth(bad);
+    test.Expect(
+      { "LineWidth is ", "more than 0 (millimetres), or 0 for a quarter of the median edge" },
+      __LINE__);
+    writer->SetLineWidth(0);
     writer->SetPageMargin(bad);
     test.Expect({ "PageMargin is ", "0 or more (millimetres)" }, __LINE__);
     writer->SetPageMargin(0);
@@ -215,6 +217,42 @@ void checkArrays(Checks& checks, vtkTransportVectorWriter* writer)
   test.Expect({ "The field association of the ColorArray" }, __LINE__);
 }
 
+// Layers have whole numbers or texts, few of them, one a point or cell.
+void checkLayerArrays(Checks& checks, vtkTransportVectorWriter* writer)
+{
+  WriterTest test(checks, writer);
+  const vtkIdType count = 101;
+  const auto data = row(count);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("Value");
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    values->InsertNextValue(static_cast<double>(i));
+  }
+  data->GetPointData()->AddArray(values);
+  writer->SetInputData(data);
+  writer->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Missing");
+  test.Expect({ "The input has no LayerArray 'Missing'", "Value (point)" }, __LINE__);
+  writer->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Value");
+  test.Expect({ "The input has no LayerArray 'Value'" }, __LINE__);
+  writer->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Value");
+  test.Expect({ "LayerArray 'Value' has more than 100 values", "fewer values" }, __LINE__);
+  for (const double bad : { 0.5, notANumber, std::numeric_limits<double>::infinity(), 1e300 })
+  {
+    values->SetValue(7, bad);
+    test.Expect({ "LayerArray 'Value' has the value ", "whole numbers or texts" }, __LINE__);
+  }
+  values->SetNumberOfComponents(3);
+  values->SetNumberOfTuples(count);
+  test.Expect({ "LayerArray 'Value' has 3 components; it must have 1" }, __LINE__);
+  values->SetNumberOfComponents(1);
+  values->SetNumberOfTuples(count - 1);
+  test.Expect({ "LayerArray 'Value' has 100 values, but there are 101 points" }, __LINE__);
+  values->SetNumberOfTuples(count);
+  values->Fill(3.0);
+  CHECK(checks, writer->Write() == 1);
+}
+
 // Filled outlines are told apart by all arrays of the cells.
 void checkArraysOfOutlines(Checks& checks, vtkTransportVectorWriter* writer)
 {
@@ -275,5 +313,5 @@ void checkProgress(Checks& checks, vtkTransportVectorWriter* writer)
 int TestVectorWriterErrors(int, char*[])
 {
   return runChecks({ ofBoth<checkProperties>, checkPages, ofBoth<checkInputs>, ofBoth<checkArrays>,
-    ofBoth<checkArraysOfOutlines>, checkFiles, ofBoth<checkProgress> });
+    ofBoth<checkLayerArrays>, ofBoth<checkArraysOfOutlines>, checkFiles, ofBoth<checkProgress> });
 }

@@ -9,6 +9,7 @@
 #include "vtkLookupTable.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkTransportPDFWriter.h"
 #include "vtkTransportSVGWriter.h"
 
@@ -334,6 +335,105 @@ void checkGhosts(Checks& checks)
   CHECK(checks, countOf(svg.Written(checks, __LINE__), "<circle") == 2);
 }
 
+// One group a value, from the least to the greatest; shapes without a value lie below.
+void checkLayers(Checks& checks)
+{
+  const auto dots = shapes(corners, Cells::Verts);
+  vtkNew<vtkDoubleArray> numbers;
+  vtkNew<vtkStringArray> texts;
+  numbers->SetName("Pen");
+  texts->SetName("Ink");
+  for (const double value : { 10.0, 2.0, -3.0, 10.0 })
+  {
+    numbers->InsertNextValue(value);
+    texts->InsertNextValue(value > 0.0 ? "a<b" : "a");
+  }
+  dots->GetCellData()->AddArray(numbers);
+  dots->GetPointData()->AddArray(texts);
+  const auto paper = shapes(corners, Cells::Polygon);
+  vtkNew<vtkMultiBlockDataSet> both;
+  both->SetBlock(0, dots);
+  both->SetBlock(1, paper);
+  Svg svg(both);
+  svg.Writer->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Pen");
+  std::string text = svg.Written(checks, __LINE__);
+  const std::string layer = "inkscape:groupmode=\"layer\" inkscape:label=\"";
+  std::size_t last = text.find("<polygon");
+  for (const char* label : { "Pen -3", "Pen 2", "Pen 10" })
+  {
+    const std::size_t at = text.find(layer + label + "\">\n");
+    checks.That(at != std::string::npos && at > last, label, __LINE__, text);
+    last = at;
+  }
+  CHECK(checks, countOf(text, layer) == 3 && countOf(text, "<circle") == 4);
+  CHECK(checks, countOf(text.substr(last), "<circle") == 2);
+  CHECK(checks, countOf(text, "<g ") == countOf(text, "</g>"));
+
+  svg.Writer->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Ink");
+  svg.Writer->SetPageBounds(10, 30, 5, 20, 0, 0);
+  svg.Writer->SetPageMargin(10);
+  text = svg.Written(checks, __LINE__);
+  expectParts(checks, text,
+    { "inkscape:label=\"Ink a\" clip-path=\"url(#inside)\">",
+      "inkscape:label=\"Ink a&#60;b\" clip-path=\"url(#inside)\">" },
+    __LINE__);
+  CHECK(checks, countOf(text, layer) == 2 && countOf(text, "<circle") == 4);
+  CHECK(checks, countOf(text, "clip-path=\"url") == 3); // of the polygon below, too
+}
+
+// A whole outline belongs to a layer, and filled ones, too.
+void checkLayersOfLines(Checks& checks)
+{
+  std::vector<std::array<double, 3>> ring = corners;
+  ring.push_back(corners[0]);
+  const auto lines = shapes(ring, Cells::Line);
+  lines->GetLines()->InsertNextCell({ 0, 1, 2, 0 });
+  lines->GetCellData()->AddArray(bytes("Land", 1, { 7, 5 }));
+  Svg svg(lines);
+  svg.Writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Land");
+  svg.Writer->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Land");
+  svg.Writer->SetFillOutlines(true);
+  const std::string text = svg.Written(checks, __LINE__);
+  const std::size_t first = text.find("inkscape:label=\"Land 5\"");
+  const std::size_t second = text.find("inkscape:label=\"Land 7\"");
+  checks.That(first < second && second != std::string::npos, "in order", __LINE__, text);
+  for (const std::string& part : { text.substr(first, second - first), text.substr(second) })
+  {
+    checks.That(countOf(part, "<polygon") == 2, "an area and its outline", __LINE__, part);
+  }
+}
+
+// LineWidth 0: a quarter of the median edge on the page, from 0.05 to 0.25.
+void checkLineWidth(Checks& checks)
+{
+  for (const auto& [segments, width] : { std::pair<int, const char*>{ 10, "0.25" }, { 100, "0.25" },
+         { 200, "0.125" }, { 400, "0.0625" }, { 1000, "0.05" } })
+  {
+    std::vector<std::array<double, 3>> row{ { 0, 0, 0 } };
+    for (int i = 0; i < segments; ++i)
+    {
+      row.push_back({ 1.0 + i, 0, 0 });
+    }
+    for (const Cells cells : { Cells::Line, Cells::Polygon })
+    {
+      Svg svg(shapes(row, cells));
+      checks.That(svg.Writer->GetLineWidth() == 0.0, "automatic at first", __LINE__);
+      const std::string part = std::string("stroke-width=\"") + width + "\"";
+      expectParts(checks, svg.Written(checks, __LINE__), { part.c_str() }, __LINE__);
+    }
+  }
+  // Filled polygons have no lines, so that their edges do not count.
+  const auto line = shapes({ { 0, 0, 0 }, { 50, 0, 0 }, { 100, 0, 0 } }, Cells::Line);
+  const auto area = shapes({ { 0, 0, 0 }, { 0.1, 0, 0 }, { 0.1, 0.1, 0 } }, Cells::Polygon);
+  area->GetCellData()->AddArray(bytes("Rgb", 3, { 1, 2, 3 }));
+  vtkNew<vtkMultiBlockDataSet> both;
+  both->SetBlock(0, line);
+  both->SetBlock(1, area);
+  Svg svg(both);
+  svg.Writer->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Rgb");
+  expectParts(checks, svg.Written(checks, __LINE__), { "stroke-width=\"0.25\"" }, __LINE__);
+}
+
 // A decimal comma of the user's language is in no file.
 void checkLocale(Checks& checks)
 {
@@ -388,5 +488,5 @@ int TestVectorWriters(int, char*[])
 {
   return runChecks({ checkPage, checkPageBounds, checkAxes, checkRadiusFromSpacing, checkRadii,
     checkColours, checkTable, checkBits, checkPolygonsAndLines, checkAreas, checkOrder, checkGhosts,
-    checkLocale, checkPdf });
+    checkLayers, checkLayersOfLines, checkLineWidth, checkLocale, checkPdf });
 }

@@ -180,8 +180,21 @@ class Print(ExampleTest):
         self.assertEqual(len(np.unique(dots[:, 2])), 1)  # grey of exponent 1: as equal
         self.assertEqual(dots[:, 3:].max(), 0)
 
+    def test_order(self):
+        """With --order Path the same dots, on a shorter way."""
+        found = {}
+        for order in ("File", "Path"):
+            self.ran("StipplePrint", os.path.join(DATA, "ascent.png"), "--styles", "equal",
+                     "--order", order)
+            found[order] = svg_dots(self.path("equal", "svg", "ascent"))[1]
+        self.assertEqual(*[sorted(map(tuple, dots)) for dots in found.values()])
+        length = [np.linalg.norm(np.diff(dots[:, :2], axis=0), axis=1).sum()
+                  for dots in found.values()]
+        self.assertLess(length[1], 0.8 * length[0])
+
     def test_refused(self):
         for option, value, words in (
+                ("--order", "Shortest", "invalid choice: 'Shortest'"),
                 ("--width", "0", "--width: 0 is not more than 0 and at most 5080 mm"),
                 ("--width", "nan", "--width: nan is not more than 0 and at most 5080 mm"),
                 ("--exponent", "0", "--exponent is 0; it must be more than 0 and at most 1"),

@@ -7,6 +7,8 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+import zlib
+from xml.etree import ElementTree
 
 import numpy as np
 from PIL import Image
@@ -15,6 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 simple = load_plugin()
+SVG, INKSCAPE = "{http://www.w3.org/2000/svg}", "{http://www.inkscape.org/namespaces/inkscape}"
 RESOLUTION = 254  # dots per inch: 10 pixels are a millimetre
 DRAW = {
     "svg": ("rsvg-convert", "-d", str(RESOLUTION), "-p", str(RESOLUTION), "-b", "white", "-o"),
@@ -25,6 +28,20 @@ HAVE_READERS = all(shutil.which(command[0]) for command in DRAW.values())
 
 def photograph(name="raccoon.png"):
     return simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data", name)])
+
+
+def layers(text):
+    """The dots of an SVG's layers by their labels, in the order of the file: rows of x and y."""
+    found = {}
+    for group in ElementTree.fromstring(text):
+        if group.get(INKSCAPE + "groupmode") == "layer":
+            found[group.get(INKSCAPE + "label")] = np.array(
+                [[float(dot.get("cx")), float(dot.get("cy"))] for dot in group.iter(SVG + "circle")])
+    return found
+
+
+def length_of(dots):
+    return np.linalg.norm(np.diff(dots, axis=0), axis=1).sum()
 
 
 def points_of(data):
@@ -111,10 +128,81 @@ class VectorFiles(unittest.TestCase):
             found[order] = np.array(re.findall(r'cx="([^"]*)" cy="([^"]*)"', text)).astype(float)
             self.assertEqual(found[order].shape, (20000, 2))
         self.assertEqual(*[sorted(map(tuple, dots)) for dots in found.values()])
-        length = {order: np.linalg.norm(np.diff(dots, axis=0), axis=1).sum()
-                  for order, dots in found.items()}
+        length = {order: length_of(dots) for order, dots in found.items()}
         self.assertGreater(length["File"], 21e3)
         self.assertLess(length["Path"], 12.5e3)
+
+    def pens(self):
+        """3,000 dots with an array Pen: 1 where the photograph is light, to 3."""
+        dots = simple.SampleDensity(photograph(), NumberOfParticles=3000, InvertDensity=1)
+        return simple.Calculator(dots, ResultArrayName="Pen", Function="3 - min(2, floor("
+                                 "(PNGImage_X + PNGImage_Y + PNGImage_Z) / 180))")
+
+    def test_layers(self):
+        """One layer a value, in order, each with its dots along a short path of its own; none is lost."""
+        pens = self.pens()
+        of_pen = vtk_to_numpy(output_of(pens).GetPointData().GetArray("Pen"))
+        options = {"PointRadius": 2.5, "PageMargin": 5, "PageBounds": [0, 1023, 0, 767, 0, 0],
+                   "LayerArray": ["POINTS", "Pen"]}
+        plain = layers(self.text(pens, **options))
+        short = layers(self.text(pens, Order="Path", **options))
+        self.assertEqual(list(plain), ["Pen 1", "Pen 2", "Pen 3"])
+        self.assertEqual(list(short), list(plain))
+        for number, (label, dots) in enumerate(plain.items(), start=1):
+            self.assertEqual(len(dots), (of_pen == number).sum())
+            self.assertEqual(sorted(map(tuple, dots)), sorted(map(tuple, short[label])))
+            self.assertLess(length_of(short[label]), 0.8 * length_of(dots))
+        self.assertEqual(layers(self.text(pens)), {})
+
+    def test_layers_of_blocks(self):
+        """Cell arrays; what lacks the array lies below, in no layer."""
+        plane = simple.Calculator(simple.Plane(XResolution=2), AttributeType="Cell Data",
+                                  ResultArrayName="Ink", Function="7")
+        group = simple.GroupDatasets(Input=[plane, simple.Line()])
+        root = ElementTree.fromstring(self.text(group, LayerArray=["CELLS", "Ink"]))
+        self.assertEqual([group.get(INKSCAPE + "label") for group in root], [None, "Ink 7"])
+        self.assertEqual([len(list(root[i].iter(SVG + name))) for i, name in
+                          enumerate(("polyline", "polygon"))], [1, 2])
+
+    @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
+    def test_layers_of_pdf(self):
+        """Optional content with the same labels, and the same picture as without layers."""
+        pens = self.pens()
+        options = {"PointRadius": 2.5, "ColorArray": ["POINTS", "PNGImage"]}
+        path = self.save(pens, "pdf", LayerArray=["POINTS", "Pen"], **options)
+        with open(path, "rb") as file:
+            data = file.read()
+        os.remove(path)
+        names = [bytes.fromhex(name.decode()).decode() for name in
+                 re.findall(rb"/Type /OCG /Name <([0-9A-F]*)>", data)]
+        self.assertEqual(names, ["Pen 1", "Pen 2", "Pen 3"])
+        content = b"".join(zlib.decompress(stream) for stream in re.findall(
+            rb"/Length \d+ >>\nstream\n(.*?)\nendstream", data, re.DOTALL)).decode()
+        self.assertEqual(len(re.findall(r"^/OC /Layer\d+ BDC$", content, re.MULTILINE)), 3)
+        self.assertEqual(len(re.findall("^EMC$", content, re.MULTILINE)), 3)
+        for extension in DRAW:
+            layered = self.drawn(pens, extension, LayerArray=["POINTS", "Pen"], **options)
+            plain = self.drawn(pens, extension, **options)
+            self.assertLess(np.abs(layered - plain).mean(), 2)  # where dots overlap
+
+    def test_layers_refused(self):
+        pens = self.pens()
+        path = os.path.join(self.folder, "drawing.svg")
+        for name in ("Missing", "SeedId", "Mass", "PNGImage"):
+            with self.subTest(name):
+                simple.SaveData(path, proxy=pens, LayerArray=["POINTS", name])
+                self.assertFalse(os.path.exists(path))
+
+    def test_line_width(self):
+        """0, the default: a quarter of the median edge, from 0.05 to 0.25 mm; points have none."""
+        for resolution, width in ((10, "0.25"), (200, "0.125"), (1000, "0.05")):
+            plane = simple.Plane(XResolution=resolution, YResolution=3)
+            lines = simple.Line(Resolution=resolution)
+            found = re.findall('stroke-width="([^"]*)"', self.text(lines))
+            self.assertEqual(found, [width])
+            self.assertEqual(len(re.findall('stroke-width="', self.text(plane))), 1)
+        self.assertIn('stroke-width="0.25"', self.text(plane, LineWidth=0.25))  # scripts of before
+        self.assertNotIn("stroke-width", self.text(simple.UniformSeeds(NumberOfPoints=50)))
 
     @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
     def test_polygons_and_lines(self):
