@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Remakes the pictures of Documentation/Gallery.md and, where no --output is given, the states
-beside the scripts that draw them: all, or those named."""
+"""Remakes the pictures of Documentation/Gallery.md and Recipes.md and, where no --output is given, the
+states beside the scripts that draw them: all, or those named."""
 import contextlib
 import glob
 import os
@@ -19,11 +19,12 @@ NAMES = sorted(example.stem(path) for path in glob.glob(os.path.join(HERE, "*.py
 
 
 def draw(name):
-    """The view that a script fills, which finds its data from the project's folder."""
-    view = example.new_session([600, 450], "Gallery")
+    """The view that a script fills or puts in the place of ours. It finds its data from the project's
+    folder."""
+    example.new_session([600, 450], "Gallery")
     with contextlib.chdir(example.ROOT):
         runpy.run_path(os.path.join(HERE, name + ".py"))
-    return view
+    return simple.FindView("View")
 
 
 def save(path, view):

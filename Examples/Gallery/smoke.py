@@ -12,12 +12,12 @@ view.UseColorPaletteForBackground = 0
 view.Background = [0.01, 0.01, 0.03]
 shown = Show(morph, view)
 shown.SetRepresentationType("Volume")
-ColorBy(shown, ("POINTS", "Density"))
+ColorBy(shown, ("POINTS", "Smoke"))
 shown.SetScalarBarVisibility(view, False)
-colours = GetColorTransferFunction("Density")
+colours = GetColorTransferFunction("Smoke")
 colours.ColorSpace = "RGB"
 colours.RGBPoints = [0, 0.1, 0.2, 0.5, 60, 0.4, 0.6, 0.9, 200, 1, 1, 1]
-GetOpacityTransferFunction("Density").Points = [0, 0, 0.5, 0, 15, 0.2, 0.5, 0, 200, 0.8, 0.5, 0]
+GetOpacityTransferFunction("Smoke").Points = [0, 0, 0.5, 0, 15, 0.2, 0.5, 0, 200, 0.8, 0.5, 0]
 shown.ScalarOpacityUnitDistance = 0.5
 
 view.CameraFocalPoint = [2, 2, 3.3]

@@ -22,8 +22,8 @@ NAME = "RectifiedTransport"
 NAMESPACE = NAME + ".org"
 INDEX = "index.html"
 WIDEST = 640  # pixels of a picture: as many as the help's window shows beside its list of pages
-BACKGROUND = ("Tutorial", "Gallery", "Properties", "Density", "MissingData", "OtherData", "Flow", "Seeds",
-              "Speed", "Server")
+BACKGROUND = ("Tutorial", "Gallery", "Recipes", "Properties", "Density", "MissingData", "OtherData",
+              "Flow", "Seeds", "Inks", "Speed", "Server")
 TABLE = '<table border="1" cellspacing="0" cellpadding="4">'
 CODE = '<pre style="background-color: #f0f0f0; white-space: pre-wrap">'
 

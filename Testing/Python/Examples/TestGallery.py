@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The gallery's states open from a copy of the project elsewhere and draw its pictures; its scripts
-remake them."""
+"""The states of the gallery and of the recipes open from a copy of the project elsewhere and draw their
+pictures; their scripts remake them."""
 import glob
 import os
 import re
@@ -48,13 +48,23 @@ class Gallery(unittest.TestCase):
                         % (path, *difference(drawn, shown)))
 
     def test_complete(self):
-        """Twenty-one, each a script, a state and a picture that the page shows."""
+        """Each is a script, a state and a picture, which a page shows."""
         scripts = {os.path.basename(path)[:-3] for path in glob.glob(os.path.join(FOLDER, "*.py"))}
         self.assertEqual(scripts - {"run"}, set(NAMES))
-        self.assertEqual(len(NAMES), 21)
-        with open(os.path.join(SOURCE, "Documentation", "Gallery.md"), encoding="utf-8") as file:
-            shown = re.findall(r"\(Images/gallery-(\w+)\.png\)", file.read())
-        self.assertEqual(sorted(shown), NAMES)
+        found = set()
+        for page, number in (("Gallery", 21), ("Recipes", 5), ("Inks", 2)):
+            shown = self.shown(page)
+            self.assertEqual((len(shown), len(set(shown))), (number, number))
+            found.update(shown)
+        self.assertEqual(found, set(NAMES))
+
+    @staticmethod
+    def shown(page):
+        """The names of the pictures of a page, each of which leads to its script."""
+        with open(os.path.join(SOURCE, "Documentation", page + ".md"), encoding="utf-8") as file:
+            return [name for name, script in re.findall(
+                r"\(Images/gallery-([\w-]+)\.png\)\]\(\.\./Examples/Gallery/([\w-]+)\.py\)", file.read())
+                    if name == script]
 
     def test_states(self):
         folder = tempfile.mkdtemp(dir=OUTPUT)
@@ -107,7 +117,7 @@ class Gallery(unittest.TestCase):
 
     def test_script(self):
         """Of those named, without a change of the states."""
-        names = ["raccoon", "checkerboard", "lights"]
+        names = ["raccoon", "checkerboard", "lights", "histograms"]
         printed, messages, code = run_script(os.path.join(FOLDER, "run.py"), *names, "--output",
                                              OUTPUT)
         self.assertEqual(code, 0, printed + messages)
