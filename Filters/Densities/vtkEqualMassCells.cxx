@@ -19,6 +19,7 @@
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Stages.h"
 #include "Core/SiteCells/DensitySiteCells.h"
+#include "Core/SiteCells/LabelPixels.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -115,7 +116,7 @@ int vtkEqualMassCells::RequestInformation(
     // One site has bounds without volume: the domain is then a unit square, a placeholder for an
     // execution that reports an error or that has no sites.
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
-    grid = count > 1 ? pixels.Around(sites, ranks) : pixels.In(gridOfBox(unit));
+    grid = count > 1 ? pixels.Around(sites, ranks) : labelPixels(gridOfBox(unit), this->Resolution);
   }
   announceSubExtents(outputVector->GetInformationObject(0));
   announceGrid(grid, outputVector->GetInformationObject(0));

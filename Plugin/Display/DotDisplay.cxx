@@ -120,6 +120,12 @@ public:
       .Set(this->IsFlat ? "Plain circle" : "Sphere");
     this->UseRadius();
     producer->AddObserver(vtkCommand::UpdateDataEvent, this);
+    const char* colours =
+      vtkSMPropertyHelper(representation, "ColorArrayName").GetInputArrayNameToProcess();
+    if (colours && std::string(colours) == "Mass") // which is the same for all
+    {
+      representation->SetScalarColoring(nullptr, vtkDataObject::POINT);
+    }
     if (this->IsFlat && this->View)
     {
       representation->SetScalarColoring(nullptr, vtkDataObject::POINT);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/ScatterDisplay.h"
 
+#include "Display/ProxyTexts.h"
+
 #include "vtkDataObject.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
@@ -37,6 +39,12 @@ void setTexts(vtkSMProxy* proxy, const char* name, const std::vector<std::string
 }
 
 } // namespace
+
+bool hasScatter(vtkSMProxy* producer, int port)
+{
+  const std::vector<vtkPVXMLElement*> found = hintElements(producer, "FirstDisplay", port);
+  return !found.empty() && std::string(found[0]->GetAttributeOrEmpty("type")) == "Scatter";
+}
 
 void showScatter(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
   vtkSMViewProxy* view, vtkSMProxy* representation)

@@ -11,6 +11,9 @@ class vtkSMViewProxy;
 namespace RectifiedTransport
 {
 
+// Whether an output is shown as such points.
+bool hasScatter(vtkSMProxy* producer, int port);
+
 // The columns `x` and `y` of the element are the coordinates of the points and the titles of the
 // axes; no other column is shown. Nothing where the representation is not one of a chart.
 void showScatter(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,

@@ -5,6 +5,7 @@
 #include "Display/FirstDisplay.h"
 #include "Display/ParticleReading.h"
 #include "Display/PluginTrace.h"
+#include "Display/ScatterDisplay.h"
 #include "Display/vtkSMTransportMorphProxy.h"
 
 #include "vtkNew.h"
@@ -30,6 +31,26 @@ vtkSMProxy* vtkTransportDisplayController::Show(
   vtkSMProxy* shown = Superclass::Show(producer, outputPort, view, representationType);
   this->ShownFirst = nullptr;
   return shown;
+}
+
+vtkSMViewProxy* vtkTransportDisplayController::ShowInPreferredView(
+  vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view)
+{
+  vtkSMViewProxy* shown = Superclass::ShowInPreferredView(producer, outputPort, view);
+  if (producer && shown && shown != view && RectifiedTransport::hasScatter(producer, outputPort))
+  {
+    this->IsForTable = true;
+    Superclass::ShowInPreferredView(producer, outputPort, shown);
+    this->IsForTable = false;
+  }
+  return shown;
+}
+
+const char* vtkTransportDisplayController::GetPreferredViewType(
+  vtkSMSourceProxy* producer, int outputPort)
+{
+  return this->IsForTable ? "SpreadSheetView"
+                          : Superclass::GetPreferredViewType(producer, outputPort);
 }
 
 // Within Show a trace writes what is set here, and no more after it.
@@ -65,6 +86,7 @@ bool vtkTransportDisplayController::PostInitializeProxy(vtkSMProxy* proxy)
 {
   const vtkMTimeType time = proxy ? this->GetInitializationTime(proxy) : 0;
   const bool isContour = proxy && RectifiedTransport::isUnsetContour(proxy, time);
+  RectifiedTransport::takeDensityOfParticles(proxy);
   const std::vector<std::string> unset = RectifiedTransport::unsetReading(proxy, time);
   const bool isInitialized = Superclass::PostInitializeProxy(proxy);
   if (isContour && isInitialized)

@@ -29,6 +29,10 @@ public:
   using Superclass::Show;
   vtkSMProxy* Show(vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view,
     const char* representationType) override;
+  // A chart of points without names gets a table beside it, which has them.
+  vtkSMViewProxy* ShowInPreferredView(
+    vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view) override;
+  const char* GetPreferredViewType(vtkSMSourceProxy* producer, int outputPort) override;
   bool RegisterRepresentationProxy(vtkSMProxy* proxy) override;
   bool PreInitializeProxy(vtkSMProxy* proxy) override;
   bool PostInitializeProxy(vtkSMProxy* proxy) override;
@@ -45,6 +49,8 @@ private:
   vtkSMSourceProxy* ShownFirst = nullptr;
   int ShownPort = 0;
   vtkSMViewProxy* ShownIn = nullptr;
+
+  bool IsForTable = false; // what is shown now
 
   vtkTransportDisplayController(const vtkTransportDisplayController&) = delete;
   void operator=(const vtkTransportDisplayController&) = delete;

@@ -197,7 +197,7 @@ double ParticleSet<D>::Write(
     data->AddArray(std::exchange(this->SeedPosition, nullptr));
     data->SetVectors(further);
   }
-  data->AddArray(masses);
+  data->SetScalars(masses); // which tools take first
   return cost;
 }
 

@@ -9,8 +9,8 @@
 #include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Messages/Failure.h"
-#include "Core/Parallel/MemoryPlan.h"
 #include "Core/SiteCells/DensitySiteCells.h"
+#include "Core/SiteCells/LabelPixels.h"
 #include "Core/SiteCells/PowerSiteCells.h"
 #include "Core/SiteCells/SiteCells.h"
 
@@ -20,9 +20,7 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -342,16 +340,9 @@ void requireDivisible(const ImageGrid& grid, bool isPower)
 // Said before they are made, since that takes a while.
 void warnOfManyPixels(const EqualMassCells& cells, const ImageGrid& grid)
 {
-  constexpr double many = 8e6;
-  constexpr double bytesOfPixel = 41.0; // in the largest step, without outlines
-  const double pixels = numberOfValues(grid);
-  if (pixels > many)
+  if (areManyPixels(grid))
   {
-    std::ostringstream text;
-    text << describeValues(grid) << " pixels are " << std::llround(pixels / 1e6)
-         << " million and take about " << MemoryPlan{ "", bytesOfPixel * pixels }.Amount()
-         << "; a lower Resolution is quicker";
-    cells.Warn(text.str());
+    cells.Warn(describeLabelPixels(grid));
   }
 }
 

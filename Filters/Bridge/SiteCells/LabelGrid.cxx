@@ -11,6 +11,7 @@
 #include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/SiteCells/LabelPixels.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
@@ -52,15 +53,6 @@ ImageGrid boxOf(const Bounds& own, const Ranks& ranks)
 
 } // namespace
 
-ImageGrid LabelGrid::In(const ImageGrid& box) const
-{
-  constexpr int flat = 512;
-  constexpr int solid = 64; // 262144 pixels of a cube, about as many as 512 x 512
-  const int automatic = box.Dimension() == 3 ? solid : flat;
-  return gridWithResolution(
-    box, this->Resolution == 0 ? automatic : this->Resolution, "Resolution");
-}
-
 ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks& ranks) const
 {
   requireExtents(domain, "domain");
@@ -98,7 +90,7 @@ ImageGrid LabelGrid::On(const ImageGrid& density) const
     throw Failure("The Domain has one point along every axis; it needs at least one axis of two "
                   "points or more");
   }
-  return this->In(box);
+  return labelPixels(box, this->Resolution);
 }
 
 ImageGrid LabelGrid::Around(vtkPointSet* sites, const Ranks& ranks) const
@@ -118,7 +110,7 @@ ImageGrid LabelGrid::Around(vtkPointSet* sites, const Ranks& ranks) const
     throw Failure("The input's sites are all at one point, about which there is no domain; connect "
                   "an image as the Domain");
   }
-  return this->In(box);
+  return labelPixels(box, this->Resolution);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -20,7 +20,6 @@ struct LabelGrid
 {
   int Resolution; // 0: by the dimension
 
-  ImageGrid In(const ImageGrid& box) const;
   // In the box of a domain: the box of an image, as for a density, or the bounds of other data. A
   // domain without points gives a grid without points.
   ImageGrid On(vtkDataObject* domain, const Ranks& ranks = SoloRanks::Get()) const;

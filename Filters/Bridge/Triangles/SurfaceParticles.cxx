@@ -79,7 +79,7 @@ vtkSmartPointer<vtkDoubleArray> writeParticles(
   });
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
-  data->AddArray(masses);
+  data->SetScalars(masses); // which tools take first
   data->AddArray(cells);
   data->SetNormals(normals);
   return points;
