@@ -54,13 +54,13 @@ def drawing(discs):
     return data
 
 
-def write(path, discs, millimetres):
+def write(path, discs, millimetres, order="File"):
     """Writes discs as SVG or PDF, by the path's ending. The page is so wide; what lies beyond it is
-    cut off."""
+    cut off. `order` is that of the writers."""
     if os.path.isfile(path):
         os.remove(path)
     source = example.producer(drawing(discs))
-    simple.SaveData(path, proxy=source, Width=millimetres,
+    simple.SaveData(path, proxy=source, Width=millimetres, Order=order,
                     PageBounds=[0, discs.size[0], 0, discs.size[1], 0, 0],
                     RadiusArray=["POINTS", "Radius"], ColorArray=["POINTS", "Colour"])
     simple.Delete(source)

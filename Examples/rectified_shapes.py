@@ -147,7 +147,7 @@ def silhouette(names, size):
 
 def inked(image, colour):
     """The picture of a density from white, 0, to a colour, 1 and more."""
-    array = image.GetPointData().GetArray("Density")
+    array = image.GetPointData().GetScalars()
     width, height = image.GetDimensions()[:2]
     values = np.clip(vtk_to_numpy(array), 0, 1).reshape(height, width, 1)
     return (255 - values * (255 - np.array(colour))).round().astype(np.uint8)

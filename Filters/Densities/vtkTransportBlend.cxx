@@ -107,6 +107,22 @@ const char* vtkTransportBlend::GetKernelAsString()
 }
 
 //------------------------------------------------------------------------------
+void vtkTransportBlend::SetResultArrayName(const char* name)
+{
+  if (this->ResultArrayName != (name ? name : ""))
+  {
+    this->ResultArrayName = name ? name : "";
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportBlend::GetResultArrayName()
+{
+  return this->ResultArrayName.c_str();
+}
+
+//------------------------------------------------------------------------------
 // Checks the properties before inputs are read, and gives them to the worker.
 RectifiedTransport::Bridge::BlendSettings vtkTransportBlend::GetBlendSettings()
 {
@@ -119,6 +135,7 @@ RectifiedTransport::Bridge::BlendSettings vtkTransportBlend::GetBlendSettings()
   constexpr int autoParticles = 4;
   settings.ParticlesPerCell = this->ParticlesPerCell > 0 ? this->ParticlesPerCell : autoParticles;
   settings.Mode = static_cast<BlendedMass>(this->MassMode);
+  settings.ArrayName = this->ResultArrayName;
   settings.Splat = splatOptions(this->Kernel, this->Radius);
   return settings;
 }
@@ -143,8 +160,9 @@ int vtkTransportBlend::RequestInformation(
         continue;
       }
       // The information of other data has no extents.
-      this->UpdateInputBeforeData(port, inputVector, outputVector, i);
+      this->UpdateInputOnRanks(port, inputVector, outputVector, i);
       const auto blocks = gatherBlocks(vtkDataObject::GetData(input), this->BlocksAreInputs);
+      requireSameNumber(blocks.All.size(), this->GetRanks());
       // The numbers are those that ReadInputs gives the same blocks, so that what is read for the
       // grid is kept for the run.
       for (const ConnectedInput& block : blocks.All)
@@ -160,7 +178,8 @@ int vtkTransportBlend::RequestInformation(
   if (areKnown && !grids.empty())
   {
     announceDensity(commonGrid(grids, this->Dimensions, MostCells::OfTheLargest),
-      outputVector->GetInformationObject(0));
+      outputVector->GetInformationObject(0),
+      this->ResultArrayName.empty() ? nullptr : this->ResultArrayName.c_str());
   }
   return 1;
 }
@@ -241,6 +260,7 @@ void vtkTransportBlend::PrintSelf(ostream& os, vtkIndent indent)
      << this->Dimensions[2] << "\n";
   os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";
   os << indent << "MassMode: " << this->GetMassModeAsString() << "\n";
+  os << indent << "ResultArrayName: " << this->ResultArrayName << "\n";
   os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
 }

@@ -11,8 +11,8 @@
  *
  * The inputs are densities (see vtkDensityAlgorithm) of any sizes, spacings and boxes, but with
  * axes of more than one point along the same directions. The outputs are
- * - port 0: vtkImageData with `Density` (active scalars; mass per length, area or volume), point
- *   or cell data as in the first input, and field data;
+ * - port 0: vtkImageData with the density (active scalars; mass per length, area or volume; see
+ *   ResultArrayName), point or cell data as in the first input, and field data;
  * - port 1: vtkPolyData with one vertex a particle, `Mass` (equal shares) and field data.
  *
  * The field data are `TotalMass` and `MovedParticles`: how many particles ended in an empty cell of
@@ -25,7 +25,7 @@
  * along each axis, or the least multiple of it that makes no more cells than the input with most of
  * them has. Numbers of cells are rounded up, and the box grows at its upper end.
  *
- * At a weight of 1 `Density` is that of the input as it is read, times the factor of MassMode: to
+ * At a weight of 1 the density is that of the input as it is read, times the factor of MassMode: to
  * the bit, if that is 1 and the input is on the grid of the output, else by exact overlap. Within
  * 0.1 of that weight the cells of the input move with the particles, with a share that falls
  * linearly to 0.
@@ -54,6 +54,7 @@
 #include "vtkRectifiedTransportDensitiesModule.h" // for the export macro
 #include "vtkTransportAlgorithm.h"
 
+#include <string> // for the array's name
 #include <vector> // for the inputs
 
 namespace RectifiedTransport
@@ -121,6 +122,15 @@ public:
 
   ///@{
   /**
+   * The name of the output's density. Empty (default) or nullptr: the name of the inputs' arrays,
+   * or `Density` where these differ.
+   */
+  void SetResultArrayName(const char* name);
+  const char* GetResultArrayName();
+  ///@}
+
+  ///@{
+  /**
    * How the mass of a particle is spread over the image's cells (or dual cells) around it.
    * CloudInCell: linearly over 2 cells along each axis. NearestCell: into the cell that contains
    * the point (on a face, the upper cell). TriangularShapedCloud (default): quadratically over 3
@@ -184,6 +194,7 @@ protected:
   int Dimensions[3] = { 0, 0, 0 };
   int ParticlesPerCell = 0;
   int MassMode = MASS_LINEAR;
+  std::string ResultArrayName;
   int Kernel = TRIANGULAR_SHAPED_CLOUD;
   double Radius = 1.0;
 

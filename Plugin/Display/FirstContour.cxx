@@ -125,8 +125,8 @@ void applyFirstContour(vtkSMProxy* contour)
     : std::vector<vtkPVXMLElement*>();
   vtkSMPropertyHelper contoured(contour, "SelectInputScalars");
   const char* name = contoured.GetInputArrayNameToProcess();
-  const char* expected = elements.empty() ? nullptr : elements[0]->GetAttribute("array");
-  if (!name || !expected || std::string(name) != expected)
+  if (!name || elements.empty() ||
+    std::string(name) != elements[0]->GetAttributeOrDefault("array", name))
   {
     return;
   }

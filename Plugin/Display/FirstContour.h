@@ -2,7 +2,8 @@
 // The first isovalue of ParaView's Contour of a density, by an element among the hints of the
 // density's filter:
 //   <FirstContour port="0" array="Density" value="0.5"/>
-//   <FirstContour port="0" array="Density" half_of="Input DensityArray Target TargetArray"/>
+//   <FirstContour port="0" half_of="Input DensityArray Target TargetArray"/>
+// array is the one to contour; without it, any one.
 // half_of names pairs of a property of inputs and the one of their array: half of the least of the
 // arrays' largest values, which all mixtures of them reach, unless MassMode or InvertDensity change
 // the scale.

@@ -12,6 +12,7 @@
 #include "vtkPVDataInformation.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyProperty.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionManager.h"
 #include "vtkSMTransferFunctionProxy.h"
@@ -39,14 +40,22 @@ bool isGiven(vtkPVXMLElement* element, const char* attribute, int& value)
   return element->GetScalarAttribute(attribute, &value) != 0;
 }
 
+// The value of a number; of an input whether it is given.
+int valueOf(vtkSMProxy* producer, const char* property)
+{
+  vtkSMPropertyHelper helper(producer, property);
+  return vtkSMProxyProperty::SafeDownCast(producer->GetProperty(property))
+    ? helper.GetNumberOfElements() > 0 && helper.GetAsProxy() != nullptr
+    : helper.GetAsInt();
+}
+
 // A hint may ask for a value of a property of the producer, or for a dimension of its data; the
 // first one that applies is taken.
 bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
 {
   int value = 0;
   const char* property = element->GetAttribute("property");
-  if (property && isGiven(element, "value", value) &&
-    vtkSMPropertyHelper(producer, property).GetAsInt() != value)
+  if (property && isGiven(element, "value", value) && valueOf(producer, property) != value)
   {
     return false;
   }
@@ -251,6 +260,9 @@ public:
       if (std::exchange(this->IsColoured, false))
       {
         this->Representation->RescaleTransferFunctionToDataRange();
+        vtkSMTransferFunctionProxy::UpdateScalarBarsComponentTitle(
+          vtkSMPropertyHelper(this->Representation, "LookupTable").GetAsProxy(),
+          this->Representation->GetArrayInformationForColorArray());
       }
       if (showsDots(this->Applied) && !std::exchange(this->HasDots, true))
       {
@@ -273,8 +285,10 @@ private:
   // was one.
   void Change(vtkPVXMLElement* element)
   {
-    this->Representation->SetRepresentationType(
-      showsDots(element) ? typeOfDots : element->GetAttribute("type"));
+    if (const char* type = element->GetAttribute("type"))
+    {
+      this->Representation->SetRepresentationType(showsDots(element) ? typeOfDots : type);
+    }
     const char* array = element->GetAttribute("array");
     this->IsColoured = array != nullptr;
     if (array || this->Applied->GetAttribute("array"))
@@ -283,7 +297,9 @@ private:
       const bool hasBar = this->Representation->IsScalarBarVisible(view);
       vtkSmartPointer<vtkSMProxy> table =
         vtkSMPropertyHelper(this->Representation, "LookupTable").GetAsProxy();
-      this->Representation->SetScalarColoring(array, vtkDataObject::POINT);
+      const int association =
+        vtkSMPropertyHelper(this->Representation, "ColorArrayName").GetInputArrayAssociation();
+      this->Representation->SetScalarColoring(array, association);
       if (hasBar)
       {
         vtkNew<vtkSMTransferFunctionManager> manager;

@@ -3,7 +3,8 @@
 // filter's proxy; the first one that applies holds:
 //   <FirstDisplay port="0" dimension="3" property="OutputPaths" value="1" type="Wireframe"
 //     array="Time" categories="1"> <Set property="LineWidth" values="2"/> </FirstDisplay>
-// port, dimension (of the data) and property with value say when it applies, each if given. type is
+// port, dimension (of the data) and property with value (of an input 1 if it is given, else 0) say
+// when it applies, each if given. type is
 // the type of the representation, or Dots (see DotDisplay.h). array colours it, by categories if
 // they are 1, on a logarithmic scale if the highest value is more than `log` times the lowest; an
 // empty name colours by none. In a chart,

@@ -44,12 +44,45 @@ int associationOf(vtkPVDataInformation* data, const char* array)
   return -1;
 }
 
+bool isReader(vtkSMProxy* filter)
+{
+  return filter && !hintElements(filter, "ReadAsParticles").empty();
+}
+
+// The name of a source's input that is a density of particles; nullptr for other sources.
+const char* densityInput(vtkSMProxy* source)
+{
+  const char* name = source->GetXMLName();
+  return isReader(source)                             ? "Density"
+    : name && std::string(name) == "TransportSampler" ? "Input"
+                                                      : nullptr;
+}
+
 } // namespace
+
+void takeDensityOfParticles(vtkSMProxy* filter)
+{
+  if (!isReader(filter) || vtkSMPropertyHelper(filter, "Density").GetAsProxy())
+  {
+    return;
+  }
+  const char* name = nullptr;
+  vtkSMProxy* source = filter;
+  while (!name && (source = vtkSMPropertyHelper(source, "Input", true).GetAsProxy()))
+  {
+    name = densityInput(source);
+  }
+  if (name)
+  {
+    vtkSMPropertyHelper density(source, name);
+    vtkSMPropertyHelper(filter, "Density").Set(density.GetAsProxy(), density.GetOutputPort());
+  }
+}
 
 std::vector<std::string> unsetReading(vtkSMProxy* filter, vtkMTimeType time)
 {
   std::vector<std::string> unset;
-  if (filter && !hintElements(filter, "ReadAsParticles").empty())
+  if (isReader(filter))
   {
     for (const char* name : { "DensityArray", "Component", "InvertDensity", "ValidRange" })
     {

@@ -55,11 +55,13 @@ ArrayUse useOf(vtkPVDataInformation* data, int association, const std::string& n
   return {};
 }
 
-// An array of one component before one of several. Then the active scalars, or else the first array
-// that all blocks have, or else the first one. Neither ids, flags nor text.
-Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
+// An array of the namesake, if there is one, or if `hasRun` the active scalars: what a filter
+// without a name takes. An array of one component before one of several. Then the active scalars,
+// or else the first array that all blocks have, or else the first one. Neither ids, flags nor text.
+Choice choose(
+  vtkSMArrayListDomain* list, vtkPVDataInformation* data, const std::string& namesake, bool hasRun)
 {
-  constexpr int ranks = 6;
+  constexpr int ranks = 7;
   std::array<Choice, ranks> first;
   for (unsigned int i = 0; i < list->GetNumberOfStrings(); ++i)
   {
@@ -71,10 +73,11 @@ Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
     {
       continue;
     }
-    const std::size_t rest = use.Attribute == vtkDataSetAttributes::SCALARS ? 0
-      : list->IsArrayPartial(i)                                             ? 2
-                                                                            : 1;
-    Choice& choice = first[rest + (use.Components > 1 ? ranks / 2 : 0)];
+    const std::size_t rest = use.Attribute == vtkDataSetAttributes::SCALARS ? 1
+      : list->IsArrayPartial(i)                                             ? 3
+                                                                            : 2;
+    const bool isTaken = name == namesake || (hasRun && rest == 1);
+    Choice& choice = first[isTaken ? 0 : rest + (use.Components > 1 ? ranks / 2 : 0)];
     if (choice.Association < 0)
     {
       choice = { list->GetFieldAssociation(i), name };
@@ -83,6 +86,18 @@ Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
   const auto found = std::find_if(
     first.begin(), first.end(), [](const Choice& choice) { return choice.Association >= 0; });
   return found == first.end() ? Choice() : *found;
+}
+
+// The name in a property of five elements; empty without one.
+std::string nameIn(vtkSMProperty* property, bool isUnchecked)
+{
+  if (!property)
+  {
+    return "";
+  }
+  vtkSMPropertyHelper helper(property);
+  helper.SetUseUnchecked(isUnchecked);
+  return helper.GetNumberOfElements() == elements ? helper.GetAsString(nameElement) : "";
 }
 
 } // namespace
@@ -99,13 +114,21 @@ void vtkSMDensityArrayDomain::Update(vtkSMProperty* requestingProperty)
   vtkSMPropertyHelper given(input, true);
   vtkSMPropertyHelper chosen(input, true);
   chosen.SetUseUnchecked(true);
-  vtkSMPropertyHelper name(property, true);
-  name.SetUseUnchecked(true);
-  unsigned int place = 0;
-  if (chosen.GetAsProxy() != given.GetAsProxy() && name.GetNumberOfElements() == elements &&
-    !this->IsInDomain(name.GetAsString(nameElement), place))
+  const bool isNewInput = chosen.GetAsProxy() != given.GetAsProxy();
+  const bool isRenamed =
+    requestingProperty && requestingProperty == this->GetRequiredProperty("Namesake");
+  for (const bool isUnchecked : { false, true })
   {
-    this->SetDefaultValues(property, true);
+    const std::string name = nameIn(property, isUnchecked);
+    unsigned int place = 0;
+    const bool isMissing = !name.empty() && !this->IsInDomain(name.c_str(), place);
+    // pvpython makes a filter on the active source first, whatever its Input will be.
+    const bool isFirst = !name.empty() && name == this->FirstChoice;
+    if ((name.empty() && this->IsWaiting) || (isUnchecked && isNewInput && isMissing) ||
+      (isFirst && (isRenamed || (requestingProperty == input && isMissing))))
+    {
+      this->SetDefaultValues(property, isUnchecked);
+    }
   }
 }
 
@@ -114,11 +137,15 @@ int vtkSMDensityArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useU
   vtkPVDataInformation* data = this->GetInputDataInformation("Input");
   vtkSMPropertyHelper helper(property);
   helper.SetUseUnchecked(useUncheckedValues);
-  if (!data || this->GetNumberOfStrings() == 0 || helper.GetNumberOfElements() != elements)
+  const bool hasRun = this->IsWaiting;
+  this->IsWaiting = this->GetNumberOfStrings() == 0;
+  if (!data || this->IsWaiting || helper.GetNumberOfElements() != elements)
   {
     return 0;
   }
-  const Choice choice = choose(this, data);
+  const Choice choice =
+    choose(this, data, nameIn(this->GetRequiredProperty("Namesake"), useUncheckedValues), hasRun);
+  this->FirstChoice = choice.Name;
   if (choice.Association >= 0)
   {
     helper.Set(nameElement - 1, std::to_string(choice.Association).c_str());

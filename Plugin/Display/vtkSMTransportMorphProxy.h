@@ -17,7 +17,8 @@
 #ifndef vtkSMTransportMorphProxy_h
 #define vtkSMTransportMorphProxy_h
 
-#include "vtkSMSourceProxy.h"
+#include "Display/vtkSMTransportStateProxy.h"
+
 #include "vtkWeakPointer.h"
 
 #include <map>
@@ -25,11 +26,11 @@
 
 class vtkSMTimeKeeperProxy;
 
-class vtkSMTransportMorphProxy : public vtkSMSourceProxy
+class vtkSMTransportMorphProxy : public vtkSMTransportStateProxy
 {
 public:
   static vtkSMTransportMorphProxy* New();
-  vtkTypeMacro(vtkSMTransportMorphProxy, vtkSMSourceProxy);
+  vtkTypeMacro(vtkSMTransportMorphProxy, vtkSMTransportStateProxy);
 
   void UpdateVTKObjects() override;
 

@@ -50,12 +50,14 @@ bool hasWritten(vtkPVXMLElement* state, vtkPVXMLElement* hint)
 void loadWithoutProperty(vtkSMProxy* proxy, vtkPVXMLElement* state, vtkPVXMLElement* hint)
 {
   const char* name = hint->GetAttributeOrEmpty("name");
-  int value = 0;
-  if (hint->GetScalarAttribute("value", &value) && hasWritten(state, hint) &&
-    !findProperty(state, name))
+  if (!hasWritten(state, hint) || findProperty(state, name))
   {
-    vtkSMPropertyHelper(proxy, name).Set(value);
+    return;
   }
+  vtkSMPropertyHelper property(proxy, name);
+  int value = 0;
+  hint->GetScalarAttribute("value", &value) ? property.Set(value)
+                                            : property.Set(hint->GetAttributeOrEmpty("value"));
 }
 
 // While it exists, properties of a state have the names of now.

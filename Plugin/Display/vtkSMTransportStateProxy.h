@@ -11,10 +11,10 @@
  *   <RenamedProperty from="Chain" name="TrackParticles"/>
  *   <RenumberedProperty name="Method" values="1 0" written="Chain"/>
  *
- * WithoutProperty: a state that has the properties `written` and lacks `name`, of integers, was
- * written before there was `name`, and gets `value`. RenamedProperty: `from` is what `name` was
- * called. RenumberedProperty: in a state that has the properties `written`, value i of the
- * enumeration `name` is the i-th of `values` now.
+ * WithoutProperty: a state that has the properties `written` and lacks `name`, an integer or a
+ * text, was written before there was `name`, and gets `value`. RenamedProperty: `from` is what
+ * `name` was called. RenumberedProperty: in a state that has the properties `written`, value i of
+ * the enumeration `name` is the i-th of `values` now.
  */
 #ifndef vtkSMTransportStateProxy_h
 #define vtkSMTransportStateProxy_h

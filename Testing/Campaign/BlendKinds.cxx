@@ -22,6 +22,17 @@ namespace
 
 using Blend = vtkTransportBlend;
 
+// By choices that leave those of other settings as they are.
+void drawName(Settings& settings)
+{
+  RandomSource before = settings.GetRandom();
+  RandomSource random(before.Next() + 2);
+  const std::string name = random.Of({ "", "", "", "rho" });
+  settings.Add("ResultArrayName", name, [name](vtkAlgorithm* filter) {
+    Blend::SafeDownCast(filter)->SetResultArrayName(name.c_str());
+  });
+}
+
 void drawBlend(Settings& settings)
 {
   settings.Draw<Blend, int>("ParticlesPerCell", &Blend::SetParticlesPerCell, { 0, 1, 2, 3, 4, 8 },
@@ -35,6 +46,7 @@ void drawBlend(Settings& settings)
   drawDevice<Blend>(settings);
   drawMethod<Blend>(settings);
   drawDensitySettings(settings);
+  drawName(settings);
 }
 
 // The grid of the output. Images that are not alike may have a large box in common at a fine
@@ -113,6 +125,18 @@ void checkBlendBound(vtkTransportBlend* blend, Findings& findings)
   }
 }
 
+// The density by the name that is asked for, else by that of the inputs' arrays.
+vtkDataArray* requireBlend(Blend* blend, Findings& findings)
+{
+  vtkImageData* image = blend->GetDensity();
+  const int kind = image->GetPointData()->GetScalars() ? vtkDataObject::POINT : vtkDataObject::CELL;
+  vtkDataArray* scalars = image->GetAttributes(kind)->GetScalars();
+  const std::string asked = blend->GetResultArrayName();
+  const char* name = asked.empty() && scalars ? scalars->GetName() : asked.c_str();
+  return requireArray(
+    image->GetAttributes(kind), name, 1, image->GetNumberOfElements(kind), findings);
+}
+
 void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<double>& weights,
   Findings& findings)
 {
@@ -122,12 +146,12 @@ void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<do
   const vtkIdType count = particles->GetNumberOfPoints();
   requireFinitePoints(particles, findings);
   requireVertices(particles, findings);
-  const bool onPoints = image->GetPointData()->GetArray("Density") != nullptr;
+  const bool onPoints = image->GetPointData()->GetScalars() != nullptr;
   const vtkIdType values = onPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
   const int each = blend->GetParticlesPerCell() > 0 ? blend->GetParticlesPerCell() : 4;
   findings.That(count == values * each, "ParticlesPerCell");
   checkBlendBound(blend, findings);
-  vtkDataArray* density = requireDensity(image, onPoints, findings);
+  vtkDataArray* density = requireBlend(blend, findings);
   vtkDataArray* mass = requireArray(particles->GetPointData(), "Mass", 1, count, findings);
   const double total = requireField(image, "TotalMass", findings);
   findings.Near(requireField(particles, "TotalMass", findings), total, 0.0, "TotalMass of both");

@@ -71,7 +71,7 @@ inline vtkSmartPointer<vtkTransportBarycenter> makeBarycenter(
 // The density as it is now.
 inline Values densityValues(vtkTransportBlend* blend)
 {
-  return imageValues(blend->GetDensity(), "Density");
+  return arrayValues(densityOf(blend->GetDensity()));
 }
 
 inline Values runDensity(vtkTransportBlend* blend)

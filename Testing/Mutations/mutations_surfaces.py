@@ -97,6 +97,10 @@ OTHERS = [
     E(BRIDGE + "Data/TupleValues.cxx", "«value.ToDouble()» + 0.0;", "std::round(value.ToDouble())"),
     E(CORE + "Drawing/OutputTarget.cxx", "mode = status.st_mode & «0777»;", "0700"),
     E(CORE + "Drawing/OutputFile.cxx", "O_CREAT | «O_EXCL | O_NOFOLLOW» | O_CLOEXEC", "O_TRUNC"),
+    E(BRIDGE + "Drawing/DrawingLayer.cxx", "if («this->Groups.Of(shape) != group»)", "false"),
+    E(BRIDGE + "Drawing/TransportVectorWriter.cxx", "std::clamp(«0.25 * *median», 0.05", "0.5 * *median"),
+    S(CORE + "Drawing/SvgDrawing.cxx", 'this->Text += this->IsClipped ? "\\" clip-path=\\"url(#inside)\\">\\n" : "\\">\\n";',
+      'this->Text += "\\">\\n";'),
     # points on surfaces
     E(SURFACES + "SurfaceRelaxation/SurfaceRelaxation.cxx", "return («mirrorWeight» * fourth", "0.0"),
     E(SURFACES + "SurfaceRelaxation/SurfaceRelaxation.cxx", "share * «std::sqrt(mostCrowded / own.Weight[lane])»",

@@ -91,13 +91,13 @@ std::array<int, 6> requestedExtent(vtkInformation* information)
   return extent;
 }
 
-void announceDensity(const ImageGrid& grid, vtkInformation* information)
+void announceDensity(const ImageGrid& grid, vtkInformation* information, const char* name)
 {
   announceGrid(grid, information);
   vtkDataObject::SetActiveAttributeInfo(information,
     grid.IsOnPoints() ? vtkDataObject::FIELD_ASSOCIATION_POINTS
                       : vtkDataObject::FIELD_ASSOCIATION_CELLS,
-    vtkDataSetAttributes::SCALARS, "Density", VTK_DOUBLE, 1, -1);
+    vtkDataSetAttributes::SCALARS, name, VTK_DOUBLE, 1, -1);
 }
 
 } // namespace RectifiedTransport::Bridge

@@ -32,8 +32,9 @@ void announceGrid(const ImageGrid& grid, vtkInformation* information);
 void announceSubExtents(vtkInformation* information);
 // The extent that is requested of an image output; empty for nothing.
 std::array<int, 6> requestedExtent(vtkInformation* information);
-// Also announces the active scalars: the array Density of doubles.
-void announceDensity(const ImageGrid& grid, vtkInformation* information);
+// Also announces the active scalars: doubles, whose name may be unknown before the data (nullptr).
+void announceDensity(
+  const ImageGrid& grid, vtkInformation* information, const char* name = "Density");
 
 } // namespace RectifiedTransport::Bridge
 

@@ -88,7 +88,8 @@ struct BlendSettings : TransportSettings
   int ParticlesPerCell = 0;
   BlendedMass Mode = BlendedMass::Linear;
   SplatOptions Splat = {};
-  bool ComparesEnds = false; // two inputs also give TransportCost and Displacement
+  std::string ArrayName = {}; // what the density is called; empty: as the inputs call theirs
+  bool ComparesEnds = false;  // two inputs also give TransportCost and Displacement
 };
 
 // What one run blends.

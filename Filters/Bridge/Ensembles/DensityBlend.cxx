@@ -54,6 +54,15 @@ void requireMemoryFor(double particles, std::size_t inputs, bool withDisplacemen
   requireMemory({ purpose.str(), each * particles });
 }
 
+// The name that all inputs' arrays have.
+std::string commonName(const std::vector<BlendInput>& inputs)
+{
+  const std::string name = inputs.front().Density->NameOfArray();
+  const bool isCommon = std::all_of(inputs.begin(), inputs.end(),
+    [&](const BlendInput& input) { return input.Density->NameOfArray() == name; });
+  return isCommon && !name.empty() ? name : "Density";
+}
+
 // Makes an array of values that are not initialised, in the memory of the last one where it has no
 // other owner.
 void reuseOrMake(
@@ -293,7 +302,9 @@ void DensityBlend::WriteDensity(const BlendRun& run, const BlendPositions& found
   Extent wanted;
   output->GetExtent(wanted.data());
   const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
-  reuseOrMake(this->Density, "Density", 1, box.Count());
+  const std::string& name = run.Settings.ArrayName;
+  reuseOrMake(
+    this->Density, (name.empty() ? commonName(run.Inputs) : name).c_str(), 1, box.Count());
   output->GetAttributes(owner)->SetScalars(this->Density);
   // Particles resolve a density only to their spacing, but the input itself has all details: its
   // own cells take part from a weight of .9 on (see shareOfHeaviest).

@@ -415,6 +415,45 @@ void checkChoice(Checks& checks)
   CHECK(checks, runDensity(same) == expected);
 }
 
+// The name of the inputs' arrays, Density where they differ or have none, or what is asked for;
+// also before the data.
+void checkArrayName(Checks& checks)
+{
+  const auto named = [](const char* name) {
+    auto image = makeDensity({ 9, 8, 1 }, true, bumpy);
+    image->GetCellData()->GetScalars()->SetName(name);
+    return image;
+  };
+  const auto check = [&](vtkTransportBlend* blend, const char* expected, int line) {
+    blend->Update();
+    vtkDataArray* array = densityOf(blend->GetDensity());
+    checks.That(array && array->GetName() == std::string(expected), expected, line);
+    CHECK(checks, blend->GetDensity()->GetCellData()->GetNumberOfArrays() == 1);
+  };
+  check(makeMorph(named("rho"), named("rho")), "rho", __LINE__);
+  check(makeMorph(named("rho"), named("mass")), "Density", __LINE__);
+  check(makeMorph(named(nullptr), named(nullptr)), "Density", __LINE__);
+  auto rho = named("rho");
+  auto other = named("rho");
+  auto mass = named("mass");
+  check(makeBarycenter({ rho, other }), "rho", __LINE__);
+  check(makeBarycenter({ rho, other, mass }), "Density", __LINE__);
+  auto morph = makeMorph(rho, other);
+  CHECK(checks, morph->GetResultArrayName() == std::string());
+  check(morph, "rho", __LINE__);
+  const vtkMTimeType tables = morph->GetTableBuildTime();
+  morph->SetResultArrayName("sigma");
+  morph->UpdateInformation();
+  vtkInformation* announced =
+    vtkDataObject::GetActiveFieldInformation(morph->GetOutputInformation(0),
+      vtkDataObject::FIELD_ASSOCIATION_CELLS, vtkDataSetAttributes::SCALARS);
+  CHECK(checks, announced && announced->Get(vtkDataObject::FIELD_NAME()) == std::string("sigma"));
+  check(morph, "sigma", __LINE__);
+  morph->SetResultArrayName(nullptr);
+  check(morph, "rho", __LINE__);
+  CHECK(checks, morph->GetTableBuildTime() == tables);
+}
+
 // Blanked cells have no mass, and what comes out is not blanked.
 void checkGhosts(Checks& checks)
 {
@@ -443,5 +482,5 @@ void checkGhosts(Checks& checks)
 int TestMorphOutput(int, char*[])
 {
   return runChecks({ checkEnds, checkMass, checkCost, checkPlaces, checkPivot, checkTranslation,
-    checkReverse, checkArrays, checkChoice, checkGhosts });
+    checkReverse, checkArrays, checkChoice, checkArrayName, checkGhosts });
 }

@@ -16,10 +16,10 @@ simple = load_plugin()
 
 
 def density_of(data):
-    """The values of Density on cells or on points."""
+    """The values of the density, on cells or on points."""
     attributes = [a for a in (data.GetCellData(), data.GetPointData()) if a.GetScalars()]
     assert len(attributes) == 1
-    return vtk_to_numpy(attributes[0].GetArray("Density")).copy()
+    return vtk_to_numpy(attributes[0].GetScalars()).copy()
 
 
 def run(proxy):
@@ -165,6 +165,36 @@ class Morph(Blend):
                                       Target=simple.PNGSeriesReader(FileNames=[photograph]),
                                       Dimensions=[20, 20, 0], NumberOfSteps=4)
         self.assertEqual(len(run(morph)), 400)
+        for array in (morph.DensityArray, morph.TargetArray):
+            self.assertEqual(list(array), ["POINTS", "PNGImage"])
+
+    def test_target_array_has_the_name_of_the_density_array(self):
+        """Until another one is chosen. A target without that name gives its active scalars."""
+        for image in self.images[:2]:
+            add_array(image, "A", 1.0 + np.arange(120.0))
+        add_array(self.images[1], "B", 1.0 + np.arange(120.0))
+        self.assertEqual(list(self.morph(DensityArray=["CELLS", "A"]).TargetArray), ["CELLS", "A"])
+        morph = self.morph()
+        for name, target in (("Density", "Density"), ("A", "A"), ("Density", "Density")):
+            morph.DensityArray = ["CELLS", name]
+            self.assertEqual(list(morph.TargetArray), ["CELLS", target])
+        morph.TargetArray = ["CELLS", "B"]
+        morph.DensityArray = ["CELLS", "A"]
+        self.assertEqual(list(morph.TargetArray), ["CELLS", "B"])
+        without = simple.MorphDensities(self.sources[0], Target=self.sources[2], DensityArray=["CELLS", "A"])
+        self.assertEqual(list(without.TargetArray), ["CELLS", "Density"])
+
+    def test_first_choice_follows_the_input(self):
+        """It is made anew for an input that lacks it; what was chosen stays."""
+        add_array(self.images[0], "A", 1.0 + np.arange(120.0))
+        wavelet = simple.Wavelet(WholeExtent=[0, 9, 0, 9, 0, 0])
+        wavelet.UpdatePipeline()
+        morph = self.morph()
+        morph.Input = wavelet
+        self.assertEqual(list(morph.DensityArray), ["POINTS", "RTData"])
+        chosen = self.morph(DensityArray=["CELLS", "A"])
+        chosen.Input = wavelet
+        self.assertEqual(list(chosen.DensityArray), ["CELLS", "A"])
 
     def test_components(self):
         rng = np.random.default_rng(7)
@@ -351,6 +381,30 @@ class Barycenter(Blend):
         particles = particles_of(self.barycenter())
         self.assertEqual(particles.GetNumberOfPoints(), 4 * 120)
         self.assertEqual(particles.GetPointData().GetNumberOfArrays(), 1)
+
+
+class ResultArrayName(Blend):
+    """The name of the output's array."""
+
+    def test_name(self):
+        """That of the inputs' arrays, Density where they differ, or what is asked for."""
+        for image, names in zip(self.images, ("AB", "AB", "B")):
+            for name in names:
+                add_array(image, name, 1.0 + np.arange(120.0))
+        choices = (({}, "Density"), (dict(DensityArray=["CELLS", "A"]), "A"),
+                   (dict(DensityArray=["CELLS", "A"], ResultArrayName="C"), "C"))
+        for make in self.morph, lambda **choice: self.barycenter(2, **choice):
+            for choice, expected in choices:
+                proxy = make(**choice)
+                proxy.UpdatePipeline()
+                self.assertEqual(list(proxy.CellData.keys()), [expected])
+        morph = self.morph(DensityArray=["CELLS", "A"], TargetArray=["CELLS", "B"])
+        morph.UpdatePipeline()
+        self.assertEqual(list(morph.CellData.keys()), ["Density"])
+        morph.ResultArrayName = "C"
+        morph.UpdatePipelineInformation()
+        morph.UpdatePipeline()
+        self.assertEqual(list(morph.CellData.keys()), ["C"])
 
 
 class State(Blend):

@@ -39,6 +39,21 @@ class FirstDisplay(unittest.TestCase):
                 shown = self.shown(simple.TransportMap(self.image(dimension)))
                 self.assert_like(shown, kind, "Displacement")
 
+    def test_map_to_a_target_is_coloured_by_its_cost(self):
+        """Also where the target is chosen later, and on points as on cells."""
+        for shape, kind in (((9, 8), "Slice"), ((9, 8, 7), "Surface")):
+            for cells in (True, False):
+                image, target = (producer(simple, density_image(shape, cells=cells, seed=seed)) for seed in (1, 2))
+                source = simple.TransportMap(image)
+                shown = self.shown(source)
+                for given, array in ((target, "CostDensity"), (None, "Displacement"), (target, "CostDensity")):
+                    with self.subTest(shape=shape, cells=cells, array=array):
+                        source.Target = given
+                        source.UpdatePipeline()
+                        self.assert_like(shown, kind, array)
+                        other = simple.TransportMap(image, Target=given)
+                        self.assert_like(self.shown(other), kind, array)
+
     def test_densities_in_space_are_volumes(self):
         for dimension, kind in ((2, "Slice"), (3, "Volume")):
             image = self.image(dimension)
@@ -48,6 +63,10 @@ class FirstDisplay(unittest.TestCase):
                            simple.SplatMass(dots, Dimensions=[9, 8, 7])):
                 with self.subTest(dimension=dimension, filter=source.GetXMLLabel()):
                     self.assert_like(self.shown(source), kind, "Density")
+            image = simple.Wavelet(WholeExtent=[0, 9, 0, 8, 0, 7 if dimension == 3 else 0])
+            for blend in (simple.MorphDensities(image, Target=image, NegativeValues="Clamp"),
+                          simple.DensityBarycenter(Input=[image, image], NegativeValues="Clamp")):
+                self.assert_like(self.shown(blend), kind, "RTData")
 
     def test_series_in_space_is_a_volume(self):
         for dimension, kind in ((2, "Slice"), (3, "Volume")):
@@ -351,6 +370,27 @@ class FirstDisplay(unittest.TestCase):
                 found = [line for line in reported.warnings if "switch InvertDensity on" in line]
                 self.assertEqual(len(found), count, reported.warnings)
 
+    def test_density_of_particles_is_proposed(self):
+        """That of the nearest filter of particles before these; what is given stays."""
+        sampler = self.photograph(NumberOfParticles=500)
+        image = self.image(2)
+
+        def density(filter_):
+            return filter_.Density and filter_.Density.SMProxy
+        for make in (simple.RelaxBlueNoise, simple.TransportQuality, simple.DensityEqualizingWarp):
+            with self.subTest(make.__name__):
+                made = make(simple.Transform(sampler))
+                self.assertEqual(density(made), sampler.Input.SMProxy)
+                self.assertEqual(made.InvertDensity, 1)
+                given = make(sampler, Density=image)
+                self.assertEqual(density(given), image.SMProxy)
+                if given.GetXMLLabel() != "Transport Quality":  # it gives a table
+                    self.assertEqual(density(make(given)), image.SMProxy)
+                self.assertIsNone(density(make(simple.UniformSeeds())))
+                made.Density = image
+                made.UpdatePipeline()
+                self.assertEqual(density(made), image.SMProxy)
+
     def test_what_comes_of_particles_is_dots(self):
         sampler = self.photograph(NumberOfParticles=500)
         path = os.path.join(OUTPUT, "particles.vtp")
@@ -400,6 +440,17 @@ class FirstContour(unittest.TestCase):
                       simple.DensityBarycenter(Input=[round_, box, box])):
             self.assertNotAlmostEqual(self.middle(blend), 0.5, places=3)
             self.assertEqual(self.isovalues(blend), [0.5])
+
+    def test_half_by_any_name(self):
+        """Of densities that are not called so."""
+        boxes = [simple.Calculator(self.box(density), ResultArrayName="rho", Function="Density")
+                 for density in (2, 3)]
+        for box in boxes:
+            box.UpdatePipeline()
+        for blend in (simple.MorphDensities(boxes[0], Target=boxes[1], DensityArray=["POINTS", "rho"]),
+                      simple.DensityBarycenter(Input=boxes, DensityArray=["POINTS", "rho"])):
+            self.assertEqual(self.isovalues(blend), [1])
+            self.assertEqual(list(blend.PointData.keys()), ["rho"])
 
     def test_thin_solid(self):
         """Half of what is inside, though no cell is full."""

@@ -145,7 +145,7 @@ class XML(unittest.TestCase):
                 writer = writers[proxy.element.get("name")]
                 self.assertEqual(writer.get("supports_parallel"), "1")
                 exposed = [e.get("name") for e in writer.findall(
-                    "SubProxy/ExposedProperties/Property")]
+                    "SubProxy/ExposedProperties/PropertyGroup/Property")]
                 self.assertEqual(set(exposed), set(proxy.properties) - {"DrawnInput"})
                 for prop in proxy.properties.values():
                     if prop.command:
@@ -229,7 +229,7 @@ class XML(unittest.TestCase):
                     optional = bool(information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()))
                     self.assertEqual(prop.element.find("Hints/Optional") is not None, optional)
                     self.assertEqual(prop.element.get("null_on_empty") == "1", optional)
-                    self.assertEqual(prop.element.get("panel_widget") == "input_selector", optional)
+                    self.assertEqual(prop.element.get("panel_widget") == "input_selector", port > 0)
                     several = bool(information.Has(vtkAlgorithm.INPUT_IS_REPEATABLE()))
                     self.assertEqual(prop.element.get("multiple_input") == "1", several)
                     self.assertEqual(prop.element.get("clean_command") is not None, several)
@@ -367,6 +367,14 @@ class XML(unittest.TestCase):
                                        "property": "Measure", "value": "1"}]
                                      if prop.name in OF_MEASURE else [])
                     found = [one for one in found if one not in shown]
+                elif prop.name == "DensityArray":  # where it is read
+                    own = "InputIsAroundSolid" in proxy.properties
+                    self.assertEqual(own, list(by_label(proxy.label).inputs.values())[0]
+                                     in ("density", "densities"))
+                    self.assertEqual([dict(one.attrib) for one in found],
+                                     [{"type": "GenericDecorator", "mode": "visibility",
+                                       "property": "InputIsAroundSolid", "value": "0"}] if own else [])
+                    continue
                 elif prop.name == "DensityResolution":  # by the type of the input
                     self.assertEqual([(one.get("type"), one.get("name"), one.get("exclude"))
                                       for one in found],

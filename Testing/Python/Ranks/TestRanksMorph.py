@@ -78,7 +78,7 @@ class RanksMorph(unittest.TestCase):
             pictures = numbers.pop("pictures", 2)
             self.assertEqual(numbers, RUNS)
             for name in ("density.pvti", "again.pvti"):
-                one, several = (vtk_to_numpy(read(place, name).GetPointData().GetArray("Density"))
+                one, several = (vtk_to_numpy(read(place, name).GetPointData().GetScalars())
                                 for place in (self.alone, folder))
                 self.assertTrue(np.array_equal(one, several), name)
             for name in ("particles.pvtp", "contour.pvtp", "threshold.pvtu"):

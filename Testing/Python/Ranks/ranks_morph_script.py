@@ -16,8 +16,11 @@ numbers = {}
 
 
 def input_pair():
-    return (simple.Wavelet(WholeExtent=WHOLE), simple.Wavelet(
-        WholeExtent=WHOLE, StandardDeviation=0.2, Center=[4, 1, 2]))
+    pair = simple.Wavelet(WholeExtent=WHOLE), simple.Wavelet(
+        WholeExtent=WHOLE, StandardDeviation=0.2, Center=[4, 1, 2])
+    for wavelet in pair:  # a filter that did not know their array would run again with it
+        wavelet.UpdatePipeline()
+    return pair
 
 
 class Counted:
@@ -100,7 +103,7 @@ def give_files():
     proxy = morph()
     save("density.pvti", proxy)
     save("particles.pvtp", particles(proxy))
-    save("contour.pvtp", simple.Contour(Input=proxy, ContourBy=["POINTS", "Density"],
+    save("contour.pvtp", simple.Contour(Input=proxy, ContourBy=["POINTS", "RTData"],
                                         Isosurfaces=[120.0], ComputeNormals=0))
     save("slice.pvtp", slice_of(proxy))
     save("threshold.pvtu", behind_particles(proxy))

@@ -147,7 +147,7 @@ def give_blends():
     give_both("barycenter blocks", barycenter(
         Input=simple.GroupDatasets(Input=[image, other, long]), ParticlesPerCell=2, **usual))
     behind = morph(Input=image, Target=other, **usual)
-    give("morph contour", simple.Contour(Input=behind, ContourBy=["POINTS", "Density"],
+    give("morph contour", simple.Contour(Input=behind, ContourBy=["POINTS", "RTData"],
                                          Isosurfaces=[120.0], ComputeNormals=0))
     give("morph slice", simple.Slice(Input=behind))
     give("morph threshold", simple.Threshold(

@@ -14,9 +14,9 @@ PARTICLES = [("RepresentationType", POINTS), ("FirstDisplay", DOTS)]
 VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density"})
 BLEND = [("View", {"type": "None", "port": "1"}),
          *((tag, {**hint, "port": "1"}) for tag, hint in PARTICLES),
-         ("FirstDisplay", {"port": "0", **VOLUME[1]})]
+         ("FirstDisplay", {"port": "0", "dimension": "3", "type": "Volume"})]
 HALF_MORPH, HALF_MEAN = (
-    ("FirstContour", {"port": "0", "array": "Density", "half_of": inputs})
+    ("FirstContour", {"port": "0", "half_of": inputs})
     for inputs in ("Input DensityArray Target TargetArray", "Input DensityArray"))
 SMOOTH = {"Kernel": "TriangularShapedCloud"}
 # Properties as they stand on panels, from top to bottom.
@@ -25,7 +25,8 @@ DENSITY_PANEL = ["DensityArray", *RULES]
 FLOW_PANEL = ["Integrator", "NumberOfSteps", "AreaTolerance", "Tolerance", "TableLookup", "FlowMaps"]
 METHOD_PANEL = ["Method", "OptimalityTolerance", "Certify"]
 TILED_PANEL = [*METHOD_PANEL, *FLOW_PANEL, "Tables", "Device", "DeviceName", "Threading"]
-BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "Kernel", "Radius", *TILED_PANEL]
+BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "ResultArrayName", "Kernel", "Radius",
+               *TILED_PANEL]
 
 
 class Filter(NamedTuple):
@@ -99,7 +100,10 @@ FILTERS = [
            refused=("NumberOfSteps", -1, 2),
            saved=dict(InvertDensity=1, Direction="DensityToUniform", EqualizeAreas=1, EmptyCells="Minimum",
                       SampleDimensions=[20, 30, 1], Integrator="Adaptive", Tolerance=0.5, Certify=1),
-           shown=[("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
+           shown=[("FirstDisplay", {"dimension": "3", "property": "Target", "value": "1",
+                                    "type": "Surface", "array": "CostDensity"}),
+                  ("FirstDisplay", {"property": "Target", "value": "1", "array": "CostDensity"}),
+                  ("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
                   ("FirstDisplay", {"array": "Displacement"})]),
     Filter("Equal Mass Cells", "vtkEqualMassCells",
            {"Input": "mesh"}, {"Domain": "density"}, ["Labels", "Sites", "Outlines", "Polygons"],
@@ -119,17 +123,18 @@ FILTERS = [
                   ("FirstDisplay", {"port": "2", "array": ""})]),
     Filter("Morph Densities", "vtkTransportInterpolator",
            {"Input": "density", "Target": "density"}, outputs=["Density", "Particles"],
-           panel=["Parameter", "PublishTime", "NumberOfTimeSteps", "DensityArray", "TargetArray", *RULES,
+           panel=["Target", "Parameter", "PublishTime", "NumberOfTimeSteps", "DensityArray", "TargetArray", *RULES,
                   *BLEND_PANEL],
            refused=("Parameter", 2, 0.5),
            saved=dict(Parameter=0.25, MassMode="Geometric", Kernel="Gaussian", Radius=2,
-                      ParticlesPerCell=2, Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7),
+                      ParticlesPerCell=2, Dimensions=[30, 0, 0], ResultArrayName="rho", PublishTime=1,
+                      NumberOfTimeSteps=7),
            shown=[*BLEND, HALF_MORPH], defaults=SMOOTH),
     Filter("Density Barycenter", "vtkTransportBarycenter",
            {"Input": "densities"}, outputs=["Density", "Particles"],
            panel=["Weights", *DENSITY_PANEL, *BLEND_PANEL],
            refused=("ParticlesPerCell", -1, 1),
-           saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1),
+           saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1, ResultArrayName="rho"),
            shown=[*BLEND, HALF_MEAN], defaults=SMOOTH),
     Filter("Transport Distance", "vtkTransportDistance",
            {"Input": "densities"}, outputs=["Distances", "Bounds", "Coordinates"],
@@ -194,7 +199,7 @@ FILTERS = [
            shown=PARTICLES, gives_figures=False),
     Filter("Density Equalizing Warp", "vtkDensityEqualizingWarp",
            {"Input": "mesh", "Density": "density"},
-           panel=["Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *TILED_PANEL],
+           panel=["Density", "Blend", "EqualizeAreas", *DENSITY_PANEL, "EmptyCells", "EmptyValue", "Margin", *TILED_PANEL],
            refused=("Blend", -0.5, 1),
            saved=dict(InvertDensity=1, Blend=0.25, EqualizeAreas=1, NumberOfSteps=9, Method="Optimal",
                       OptimalityTolerance=0.01, EmptyCells="Value",
@@ -202,13 +207,13 @@ FILTERS = [
            always_shown=("EqualizeAreas",), shown=[READING], defaults={"EmptyCells": "Mean"}),
     Filter("Transport Quality", "vtkTransportQuality",
            {"Input": "points", "Density": "density"},
-           panel=["BlockSize", *DENSITY_PANEL, "Tables", "Threading"],
+           panel=["Density", "BlockSize", *DENSITY_PANEL, "Tables", "Threading"],
            refused=("BlockSize", -1, 3),
            saved=dict(InvertDensity=1, BlockSize=32),
            shown=[READING, ("View", {"type": "SpreadSheetView"})], gives_table=True),
     Filter("Relax Blue Noise", "vtkBlueNoiseRelaxation",
            {"Input": "mesh", "Density": "density"},
-           panel=["Method", "MaximumIterations", "Tolerance", *DENSITY_PANEL, "Threading"],
+           panel=["Density", "Method", "MaximumIterations", "Tolerance", *DENSITY_PANEL, "Threading"],
            refused=("MaximumIterations", -1, 2),
            quick=dict(MaximumIterations=2),
            saved=dict(InvertDensity=1, Method="OptimalTransport", MaximumIterations=3, Tolerance=0.001),
@@ -269,6 +274,7 @@ PROPERTIES = {
     "EqualizeAreas": Property(shown_by=("Direction",), differing=(0, 1)),
     "MassDifference": Property(["Normalize", "Error"]),
     "InputNames": Property(advanced=True),
+    "ResultArrayName": Property(advanced=True),
     "MassMode": Property(["Linear", "Geometric", "Source", "Normalize"]),
     "Kernel": Property(["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]),
     "Radius": Property(shown_by=("Kernel",), differing=(1.0, 3.0)),

@@ -50,6 +50,23 @@ ResetCamera(view)
 SetActiveSource(dome)
 """
 
+# The corners of a cube.
+OPEN_CUBE = """
+from paraview.simple import *
+cube = Box(registrationName='Cube')
+Show(cube, GetActiveViewOrCreate('RenderView'))
+SetActiveSource(cube)
+"""
+
+# A cartogram that is stopped too early.
+OPEN_CARTOGRAM = """
+from paraview.simple import *
+states = OpenDataFile('%s')
+cartogram = Cartogram(states, MassArray=['CELLS', 'mass'], MaximumIterations=1)
+Show(cartogram, GetActiveViewOrCreate('RenderView'))
+SetActiveSource(cartogram)
+""" % os.path.join(SOURCE, "Testing", "Data", "us-states.geojson")
+
 # Two times of a series of photographs, each forced, which hides that they come of a series.
 OPEN_SERIES = """
 from paraview.simple import *
@@ -100,6 +117,16 @@ def typed_in_list(*numbers):
             for step in ((weights + "Add", "activate", ""),
                          (weights + "Table", "edit", "%d.0" % i),
                          (editor, "set_string", str(number)), (editor, "key", "16777220"))]
+
+
+def colour_of(state, kind):
+    """The array that colours the output of a filter."""
+    identity = proxies_of(state)[kind].get("id")
+    for proxy in state.iter("Proxy"):
+        found = {prop.get("name"): prop for prop in proxy.findall("Property")}
+        if "ColorArrayName" in found and found["Input"].find("Proxy").get("value") == identity:
+            return values(proxy, "ColorArrayName")[-1]
+    return None
 
 
 class Gui(GuiTest):
@@ -197,9 +224,11 @@ class Gui(GuiTest):
                 self.assertGreater(max(dark, default=0), 330)
 
     def test_relaxation(self):
-        """Of particles, shown as they are; the density is asked for."""
+        """Of particles, shown as they are; the dialog that asks for the density has it already, and then the
+        panel."""
         saved = self.state_after("gui-relaxation.png", choose("Filters", "TransportSampler"), APPLY,
-                                 choose("Filters", "BlueNoiseRelaxation"), *DENSITY, APPLY,
+                                 choose("Filters", "BlueNoiseRelaxation"), DENSITY[-1],
+                                 (PANEL + "Density/1QComboBox0", "is currentText", "Photograph"), APPLY,
                                  script_text=OPEN + "ResetCamera()\n")
         kinds = [proxy.get("type") for proxy in saved.iter("Proxy")]
         self.assertIn("BlueNoiseRelaxation", kinds)
@@ -259,18 +288,45 @@ class Gui(GuiTest):
         self.assertEqual([len(prop.findall("Proxy")) for prop in given], [1, 0])
 
     @unittest.skipUnless(PANEL_WIDGETS, "the plugin's widgets are not built")
+    def test_notes(self):
+        """What a resolution means is said before Apply, and how many regions miss a tolerance after it."""
+        number, note = (PANEL + "Resolution/" + name for name in ("IntRangeWidget/LineEdit", "Note"))
+        self.state_after("gui-pixels.png", choose("Filters", "EqualMassCells"),
+                         (note, "is text", "64 x 64 x 64 pixels take about 10.7 MB"),
+                         (number, "set_string", "512"),
+                         (note, "is text", "512 x 512 x 512 pixels take about 5.5 GB; a lower Resolution "
+                                           "is quicker"), script_text=OPEN_CUBE)
+        note = PANEL + "Tolerance/Note"
+        self.state_after("gui-missed.png", ADVANCED, (note, "is text", "49 regions miss it"),
+                         script_text=OPEN_CARTOGRAM)
+
+    def test_names_of_a_chart(self):
+        """The table beside the chart has them."""
+        saved = self.state_after("gui-chart.png", choose("Filters", "TransportDistance"), APPLY,
+                                 script_text=OPEN_BOTH)
+        tables = proxies_of(saved)["SpreadSheetRepresentation"]
+        source = next(prop for prop in tables.iter("Property") if prop.get("name") == "Input").find("Proxy")
+        self.assertEqual((source.get("value"), source.get("output_port")),
+                         (proxies_of(saved)["TransportDistance"].get("id"), "2"))
+
+    @unittest.skipUnless(PANEL_WIDGETS, "the plugin's widgets are not built")
     def test_target_of_a_map(self):
-        """Its array is shown with it alone; equal areas are those of the uniform measure."""
+        """Its array is shown with it alone; equal areas are those of the uniform measure. The panel goes on
+        showing the map, whose colours are those of a map to a target."""
         target, array, direction, areas = (PANEL + widget for widget in (
             "Target/1QComboBox0", "TargetArray", "Direction/ComboBox", "EqualizeAreas"))
         steps = (choose("Filters", "TransportMap"), ADVANCED, (array, "is visible", "false"),
                  (areas, "is visible", "false"), (direction, "set_string", "DensityToUniform"),
                  (areas, "is visible", "true"), (target, "set_string", "Photograph"),
-                 (array, "is visible", "true"), (areas, "is visible", "false"), APPLY)
-        saved = self.states_after("gui-target.png", steps, ((target, "set_string", "(none)"), APPLY))
+                 (array, "is visible", "true"), (areas, "is visible", "false"), APPLY,
+                 (array, "is visible", "true"))
+        without = ((target, "set_string", "(none)"), APPLY, (array, "is visible", "false"))
+        saved = self.states_after("gui-target.png", steps, without, script_text=OPEN_TWO)
         given = [next(prop for prop in proxies_of(state)["TransportMap"].iter("Property")
                       if prop.get("name") == "Target") for state in saved]
         self.assertEqual([len(prop.findall("Proxy")) for prop in given], [1, 0])
+        self.assertEqual([colour_of(state, "TransportMap") for state in saved],
+                         ["CostDensity", "Displacement"])
 
     def test_devices(self):
         """Those of the machine are listed once OpenCL is applied. A name that is not in the list, given
@@ -311,6 +367,7 @@ SetActiveSource(sampler)
         target = ("SelectInputDialog/buttonFrame/Target", *DENSITY[0][1:])
         saved = self.state_after(
             "gui-morph.png", choose("Filters", "TransportInterpolator"), target, *DENSITY[1:],
+            (PANEL + "Target/1QComboBox0", "is currentText", "Photograph"),
             tick("PublishTime"), APPLY, PLAY,
             script_text=OPEN_TWO)
         self.assertEqual(numbers(saved, "TransportInterpolator", "PublishTime"), [1])

@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image
 from rt_gui import GuiTest, PHOTOGRAPH, numbers, proxies_of, save_state, values, view_of
 from rt_testing import SOURCE, main, need_display
-from rt_window import (APPLY, choose, first_stippling, load_new, manage_plugins, open_state,
+from rt_window import (APPLY, PANEL, choose, first_stippling, load_new, manage_plugins, open_state,
                        write_settings)
 
 DATA = os.path.join(SOURCE, "Testing", "Data")
@@ -26,6 +26,12 @@ morph.UpdatePipeline()
 Show(morph, GetActiveViewOrCreate('RenderView'))
 ResetCamera()
 SetActiveSource(morph)
+"""
+BALL = """
+from paraview.simple import *
+ball = Sphere(registrationName='Ball')
+Show(ball, GetActiveViewOrCreate('RenderView'))
+SetActiveSource(ball)
 """
 
 
@@ -59,6 +65,14 @@ class GuiFiles(GuiTest):
         self.assertAlmostEqual(height, 112.5, delta=0.5)
         unit = 150 / (1024 + 2 * float(values(shown, "GaussianRadius")[0]))
         self.assertAlmostEqual(radius / unit, float(values(shown, "GaussianRadius")[0]), delta=0.05)
+
+    def test_closed_surface(self):
+        """Particles inside, in one step: no array is asked for."""
+        array = PANEL + "DensityArray"
+        steps = (choose("Filters", "TransportSampler"), (array, "is visible", "false"), APPLY,
+                 (array, "is visible", "false"))
+        saved = self.state_after("gui-solid.png", *steps, script_text=BALL)
+        self.assertIn("TransportSampler", proxies_of(saved))
 
     def test_auto_load(self):
         """The plugin is ticked in the list, and is there when ParaView starts again; so is what a state
