@@ -112,7 +112,7 @@ OTHERS = [
       "true"),
     E(SURFACES + "SurfaceRelaxation/DensityLevels.cxx", "const std::int64_t with = «isEmpty» ?", "false"),
     S(SURFACES + "SurfaceRelaxation/DensityLevels.cxx", "this->Levels[t] = smooth.data()[t];", "this->SetLevel(t);"),
-    E(SURFACES + "SurfaceRelaxation/SurfaceBoundary.cxx",
+    E(SURFACES + "SurfaceRelaxation/SurfaceRelaxation.cxx",
       "const double place = «std::clamp(dot(from, edge) / dot(edge, edge), 0.0, 1.0)»;", "0.5"),
     E(SURFACES + "SurfaceRelaxation/DotTree.cxx", "< «squaredDotReach» * a.Largest", "(0.5 * squaredDotReach)"),
     S(SURFACES + "SurfaceRelaxation/GeodesicTracer.cxx", "left = along * edge;\n      from = through;",

@@ -3,19 +3,25 @@
 
 #include "Core/Geometry/PointBounds.h"
 #include "Core/Geometry/Vectors.h"
+#include "Core/Parallel/Context.h"
+#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
+#include "Surfaces/Mesh/DisjointSets.h"
 #include "Surfaces/Mesh/Repair/SurfaceRepair.h"
+#include "Surfaces/Mesh/SurfaceEdges.h"
+#include "Surfaces/Mesh/SurfaceOrientation.h"
 #include "Surfaces/Mesh/TriangleShape.h"
+#include "Surfaces/Mesh/TriangleSurface.h"
 #include "Surfaces/Seams/CutOpenComponent.h"
 #include "Surfaces/Seams/HoleFans.h"
 #include "Surfaces/Seams/SeamMesh.h"
-#include "Surfaces/Seams/SurfaceParts.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace RectifiedTransport
@@ -23,6 +29,82 @@ namespace RectifiedTransport
 
 namespace
 {
+
+// The components of a surface, parted where they touch. Triangles part at edges of more than two
+// triangles, and where they share only a point. Then all edges have at most two triangles, and
+// those about a point form one fan.
+class SurfaceParts
+{
+public:
+  // The corners of a triangle are three different points. Memory: 24 bytes a triangle, and
+  // temporarily 90 a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+  explicit SurfaceParts(const TriangleSurface& surface, const Context& context = Context())
+    : Points(3 * surface.NumberOfTriangles)
+  {
+    const std::int64_t sides = this->Points.size();
+    Progress progress(context);
+    Stages stages(
+      progress, { { "edges", 3 }, { "points", 2 }, { "edges of parts", 3 }, { "components", 2 } });
+    {
+      const SurfaceEdges edges(surface, stages["edges"]);
+      this->Parted = edges.NonManifold();
+      LargeBuffer<std::int64_t> trees(sides);
+      std::iota(trees.data(), trees.data() + sides, std::int64_t{ 0 });
+      // Corners are joined across edges of two triangles only (Other() is -1 at others). Each tree
+      // of corners is one fan, and becomes a point: the surface parts where fans meet.
+      Progress& points = stages["points"].Expect(2 * sides);
+      for (std::int64_t side = 0; side < sides; ++side)
+      {
+        if (edges.Other(side) > side)
+        {
+          joinCorners(surface.Triangles, side, edges.Other(side),
+            [&](std::int64_t a, std::int64_t b) { uniteSets(trees.data(), a, b); });
+        }
+        points.Add(1);
+      }
+      for (std::int64_t side = 0; side < sides; ++side)
+      {
+        const std::int64_t root = rootOf(trees.data(), side); // the lowest corner
+        this->Points.data()[side] = root == side ? this->Count++ : this->Points.data()[root];
+        points.Add(1);
+      }
+    }
+    // The points of parts are other ones than before, so that some triangles at an edge that was
+    // parted may still share both of its points. Pairs of these are found by the edges of the
+    // parted surface.
+    LargeBuffer<double> places(3 * this->Count);
+    progress.Check();
+    for (std::int64_t side = 0; side < sides; ++side)
+    {
+      std::copy_n(
+        surface.Points[surface.Triangles[side]], 3, places.data() + 3 * this->Points.data()[side]);
+    }
+    progress.Check();
+    const TriangleSurface parted{ { places.data(), this->Count }, this->Points.data(),
+      surface.NumberOfTriangles };
+    const SurfaceEdges edges(parted, stages["edges of parts"]);
+    LargeBuffer<signed char> signs(surface.NumberOfTriangles);
+    Progress& components = stages["components"].Expect(surface.NumberOfTriangles);
+    visitPatches(parted, edges, signs.data(), components, [this](const SurfacePatch& patch) {
+      this->Triangles.emplace_back(patch.Triangles, patch.Triangles + patch.Count);
+      std::sort(this->Triangles.back().begin(), this->Triangles.back().end());
+    });
+  }
+
+  // The points of the parts that the corners of the triangles have, three a triangle; the numbers
+  // ascend with their first corners.
+  const std::int64_t* Corners() const { return this->Points.data(); }
+  std::int64_t NumberOfPoints() const { return this->Count; }
+  // The triangles of each component, ascending, in the order of their first triangles.
+  const std::vector<std::vector<std::int64_t>>& Components() const { return this->Triangles; }
+  std::int64_t NonManifoldEdges() const { return this->Parted; }
+
+private:
+  LargeBuffer<std::int64_t> Points; // three a triangle
+  std::int64_t Count = 0;           // number of points
+  std::int64_t Parted = 0;          // number of non-manifold edges
+  std::vector<std::vector<std::int64_t>> Triangles;
+};
 
 constexpr std::int64_t trianglesPolled = std::int64_t{ 1 } << 14; // triangles between two polls
 
