@@ -50,8 +50,8 @@ public:
       this->Parted = edges.NonManifold();
       LargeBuffer<std::int64_t> trees(sides);
       std::iota(trees.data(), trees.data() + sides, std::int64_t{ 0 });
-      // Corners are joined across edges of two triangles only (Other() is -1 at others). Each tree
-      // of corners is one fan, and becomes a point: the surface parts where fans meet.
+      // Corners are joined across edges of two triangles only (Other() is -1 at others). The
+      // corners of a tree are one fan, which becomes a point: the surface parts where fans meet.
       Progress& points = stages["points"].Expect(2 * sides);
       for (std::int64_t side = 0; side < sides; ++side)
       {
