@@ -178,7 +178,7 @@ OTHERS = [
     E(CORE + "Relaxation/RelaxationDescent.cxx", "const double rest = «isAimed» ? 0.0", "false"),
     E(CORE + "Relaxation/TransportRelaxation.cxx", "const double area = «frame.Sides[0] * frame.Sides[1]»",
       "count"),
-    E(CORE + "Relaxation/TransportEnergy.cxx", "end = «density.NearestMass(end)»", "end"),
+    E(CORE + "Relaxation/TransportRelaxation.cxx", "end = «density.NearestMass(end)»", "end"),
     E(CORE + "PowerCells/EqualMassPartition.cxx", "const std::size_t few = «weights.size() / 10»", "0"),
     E(CORE + "PowerCells/EqualMassPartition.cxx", "(«mass > 1.0» ? high : low) = found", "false"),
     E(CORE + "PowerCells/PowerDiagram.cxx", "inconsistent.empty() && «corners != 4»", "false"),

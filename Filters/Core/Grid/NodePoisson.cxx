@@ -2,15 +2,17 @@
 #include "Core/Grid/NodePoisson.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/Grid/CosineTransform.h"
+#include "Core/Grid/FourierTransform.h"
 #include "Core/Grid/NodeRows.h"
 #include "Core/Grid/WeightedPoisson.h"
+#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <thread>
@@ -21,6 +23,87 @@ namespace RectifiedTransport
 
 namespace
 {
+
+// The discrete cosine transform of the first kind of lines of nodes, eight at a time. X(k) = f(0) +
+// (-1)^k f(M) + 2 sum over 0 < j < M of f(j) cos(pi j k / M), for lines of M + 1 nodes and an even
+// M. Twice it is 2 M times the identity. The same bits on every machine. For one thread at a time.
+class CosineLines
+{
+public:
+  static constexpr int Count = sizeof(ComplexLines) / sizeof(double);
+
+  // M is the length of the Fourier transform, which has to outlive this object.
+  explicit CosineLines(const FourierTransform& fourier)
+    : Fourier(fourier)
+    , Line(fourier.Length() + 1)
+    , Spectrum(fourier.Length())
+  {
+  }
+
+  // [node][line]. Real parts are lines 0 to 3, imaginary parts 4 to 7.
+  double* Values() { return reinterpret_cast<double*>(this->Line.data()); }
+
+  // Transforms the lines in place. Two real lines take one complex Fourier transform of length M
+  // (Press et al., "Numerical Recipes", cosft1). With y_j = (f_j + f_{M-j}) / 2 - sin(pi j / M)
+  // (f_j - f_{M-j}), the Fourier transform of y holds the even X in its real part and the
+  // differences of odd X in its imaginary part. Two real lines, a and b, are transformed as a + i
+  // b; the sums and differences of z_k and z_{M-k} separate them.
+  void Transform()
+  {
+    const std::int64_t cells = this->Fourier.Length();
+    const std::int64_t middle = cells / 2;
+    ComplexLines* f = this->Line.data();
+    ComplexLanes odd[2]; // half of X(1), which the recursion of the odd terms starts from
+    for (int half = 0; half < 2; ++half)
+    {
+      odd[half] = 0.5 * (f[0][half] - f[cells][half]);
+      f[0].Set(half, 0.5 * (f[0][half] + f[cells][half]));
+    }
+    for (std::int64_t j = 1; j < middle; ++j)
+    {
+      const ComplexLanes& root = this->Fourier.Roots()[j]; // cos(pi j / M) - i sin(pi j / M)
+      for (int half = 0; half < 2; ++half)
+      {
+        const ComplexLanes sum = 0.5 * (f[j][half] + f[cells - j][half]);
+        const ComplexLanes difference = f[j][half] - f[cells - j][half];
+        const ComplexLanes turned = root.Imaginary * difference;
+        odd[half] = odd[half] + root.Real * difference;
+        f[j].Set(half, sum + turned);
+        f[cells - j].Set(half, sum - turned);
+      }
+    }
+    this->Fourier.Transform(f, this->Spectrum.data());
+    const ComplexLines* z = this->Spectrum.data();
+    for (int half = 0; half < 2; ++half)
+    {
+      // X(2 k + 1) = X(2 k - 1) + twice the sine sum at k.
+      ComplexLanes last = 2.0 * odd[half];
+      f[0].Set(half, 2.0 * z[0][half]);
+      f[1].Set(half, last);
+      for (std::int64_t k = 1; k < middle; ++k)
+      {
+        const ComplexLanes a = z[k][half];
+        const ComplexLanes b = z[cells - k][half];
+        f[2 * k].Set(half, a + b);
+        last = last + ComplexLanes{ b.Imaginary - a.Imaginary, a.Real - b.Real };
+        f[2 * k + 1].Set(half, last);
+      }
+      f[cells].Set(half, 2.0 * z[middle][half]);
+    }
+  }
+
+  // Bytes for lines of so many cells.
+  static double MemoryFor(std::int64_t cells)
+  {
+    constexpr double arrays = 3.0; // the line, its spectrum and the roots of unity
+    return arrays * sizeof(ComplexLines) * static_cast<double>(cells + 1);
+  }
+
+private:
+  const FourierTransform& Fourier;
+  LargeBuffer<ComplexLines> Line;
+  LargeBuffer<ComplexLines> Spectrum;
+};
 
 constexpr int lanes = CosineLines::Count;
 // Units of the first piece of work, after which its pace sizes the others.

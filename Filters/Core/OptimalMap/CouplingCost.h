@@ -20,7 +20,7 @@ struct CouplingCost
   double OfSpread = 0.0;
 };
 
-// Follows the map from the source, whose images are corrected (BalancedMap.h) and then shared among
+// Follows the map from the source, whose images are corrected (balanceMap) and then shared among
 // the target's cells (ImageShares.h); what a cell gets beyond its share goes on to cells nearby
 // that got too little, then along a space-filling curve (ResidualCoupling.h). Uniform parts of
 // cells go by translation, so that the cost of the coupling is known exactly; masses are integers,
