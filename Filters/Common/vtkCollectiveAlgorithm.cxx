@@ -2,7 +2,7 @@
 #include "vtkCollectiveAlgorithm.h"
 
 #include "Bridge/Blocks/GatheredInputs.h"
-#include "Bridge/Data/GhostArrayType.h"
+#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Ranks/FieldBroadcast.h"
 #include "Bridge/Ranks/RankConsistency.h"

@@ -301,7 +301,7 @@ OTHERS = [
     E(BRIDGE + "Run/Settings/ComponentChoice.h", "type == VTK_UNSIGNED_CHAR || «type == VTK_UNSIGNED_SHORT»",
       "false"),
     E(CORE + "Messages/NumberText.cxx", "read.ec == std::errc() && «read.ptr == last»", "true"),
-    E(BRIDGE + "Data/GhostArrayType.cxx", "if («array && !vtkUnsignedCharArray::SafeDownCast(array)»)",
+    E(BRIDGE + "Data/GhostFlags.cxx", "if («array && !vtkUnsignedCharArray::SafeDownCast(array)»)",
       "false"),
     E(CORE + "Tables/Reading/TupleDensities.h", "(«hasAlpha && missing.AreNaN» &&", "false"),
     E(CORE + "Tables/Reading/OccupiedCells.cxx", "this->Cells.Add(«static_cast<double>(filled)»);",

@@ -6,6 +6,7 @@
 #include "Bridge/Data/TupleValues.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/Stages.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCell.h"

@@ -13,7 +13,9 @@
 #include <cstdint>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkAlgorithm;
 class vtkDataSet;
+class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport::Bridge
@@ -51,6 +53,10 @@ private:
   std::int64_t Number;
   LargeBuffer<std::int64_t> Indices; // none if there are no ghosts
 };
+
+// A warning of the filter for the first such array of its inputs. VTK does not take them for flags,
+// so that they hide no points and cells.
+void warnOfGhostArrayType(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -6,7 +6,7 @@
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/TruncatedArrays.h"
-#include "Bridge/Run/SampledFingerprint.h"
+#include "Bridge/Run/Fingerprint.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 

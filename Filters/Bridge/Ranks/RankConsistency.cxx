@@ -2,7 +2,7 @@
 #include "Bridge/Ranks/RankConsistency.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Run/SampledFingerprint.h"
+#include "Bridge/Run/Fingerprint.h"
 #include "Core/Geometry/Distributed/PropertyDifference.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"

@@ -10,6 +10,7 @@
 
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
+#include "vtkType.h"
 
 #include <array>
 #include <functional>
@@ -56,6 +57,12 @@ void writeOutlines(SiteCellOutlines<Dimension> outlines, vtkPolyData* output);
 
 // With the data of the output's sites. Throws Failure and Cancelled.
 void writePolygons(SiteCellPolygons polygons, const CellOutputs& outputs, Progress& progress);
+
+// Adds the cell array SiteColor, bytes that differ between neighbours, to the sites' cells, whose
+// cell scalars are SiteId: an image and polygons. Hides pixels of no site by a ghost array. Throws
+// Failure and Cancelled.
+void addSiteColors(
+  vtkImageData* labels, vtkPolyData* polygons, vtkIdType sites, Progress& progress);
 
 } // namespace RectifiedTransport::Bridge
 

@@ -4,11 +4,12 @@
 #define RectifiedTransport_AdvectedArrays_h
 
 #include "Bridge/Ranks/DistributedSplat.h"
-#include "Bridge/Temporal/AdvectedLabels.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/Distributed/TupleBoxes.h"
+#include "Core/Series/SeriesLabels.h"
 #include "Core/Series/SeriesParticles.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
@@ -31,6 +32,32 @@ struct AdvectedImage
   vtkSmartPointer<vtkImageData> Image;
   ImageGrid Grid; // with the density's association
   std::string Density;
+};
+
+// Arrays of two images that have nothing between their values: integers, bits and texts. They move
+// along with the mass. See SeriesLabels.
+class AdvectedLabels
+{
+public:
+  // Takes arrays of the points or cells (`owner`) of both images. Throws Failure.
+  void Make(int owner, const std::vector<std::string>& names, const AdvectedImage& first,
+    const AdvectedImage& second, const SeriesParticles& particles);
+  // Adds the arrays on an extent of the image. Collective. The same for every number of threads and
+  // ranks. Throws Failure and Cancelled.
+  void Write(const SeriesSnapshot& moment, const ImageGrid& geometry, const Extent& wanted,
+    Progress& progress, vtkImageData* output) const;
+
+private:
+  struct Labels
+  {
+    std::string Name;
+    std::array<vtkSmartPointer<vtkAbstractArray>, 2> Arrays; // first and second image
+  };
+
+  int Owner = 0; // vtkDataObject::POINT or CELL
+  SeriesLabels OfParticles;
+  std::vector<Labels> Arrays;
+  std::vector<std::vector<std::int64_t>> Equal; // one list an array, see findEqual
 };
 
 // Adds the arrays of an image that may be advected, as they are, to an output: those with a name,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/Inputs/InputRequests.h"
 
+#include "Bridge/Run/Fingerprint.h"
 #include "Bridge/Run/Inputs/InputExtents.h"
 #include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/RankRun.h"
-#include "Bridge/Run/SampledFingerprint.h"
 #include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
