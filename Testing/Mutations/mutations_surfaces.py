@@ -55,7 +55,7 @@ OTHERS = [
     E(SURFACES + "Mesh/DegenerateTriangles.cxx", "«!this->IsJoined(lastSide(side), across)»", "true"),
     E(SURFACES + "Mesh/Repair/RepairedDisk.cxx", "if («this->Repairs().FlatTriangles > 0»)", "false"),
     E(SURFACES + "Mesh/Repair/SurfaceRepair.cxx", "counts.UnusedPoints += «used ? 0 : 1»;", "0"),
-    E(SURFACES + "Mesh/PolygonCutter.cxx", "«!this->IsSamePlace(kept.back(), corner)»", "true"),
+    E(SURFACES + "Mesh/CutPolygons.cxx", "«!this->IsSamePlace(kept.back(), corner)»", "true"),
     S(BRIDGE + "Triangles/AreaPreservingParameterization.cxx",
       'data->SetActiveTCoords("AreaPreserving");',
       'data->SetTCoords(data->GetArray("AreaPreserving"));'),

@@ -7,7 +7,6 @@
 #include "Core/Series/FadingParticles.h"
 #include "Core/Series/SeriesLabels.h"
 #include "Core/Series/SeriesTracks.h"
-#include "Core/Series/TrackedParticles.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "SolidTest.h"
 #include "SurfaceSamplerTest.h"
 
-#include "Bridge/Plan/OptimalMemory.h"
+#include "Bridge/Plan/DensityPlan.h"
 #include "Core/Messages/Failure.h"
 
 #include <vector>

@@ -2,7 +2,7 @@
 // Polygons, strips and quads as triangles: as many as there are corners beyond the second, with all
 // edges of the polygon and its area, also with coincident and collinear corners.
 #include "Core/Geometry/Vectors.h"
-#include "Surfaces/Mesh/PolygonCutter.h"
+#include "Surfaces/Mesh/CutPolygons.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 #include "HangingNodes.h"
 #include "SurfaceRelaxation/SurfaceMeasures.h"
 #include "Surfaces/Mesh/Repair/SplitSurface.h"
-#include "Surfaces/Mesh/Repair/SplitTriangle.h"
 
 #include <gtest/gtest.h>
 

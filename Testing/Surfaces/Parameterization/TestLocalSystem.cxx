@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Systems that are summed up over triangles, against dense ones.
 #include "Core/Parallel/Progress.h"
-#include "Surfaces/Parameterization/LocalSystem.h"
+#include "Surfaces/Parameterization/LocalMap.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

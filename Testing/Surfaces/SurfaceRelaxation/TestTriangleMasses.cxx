@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Masses of triangles: areas times densities of points or triangles, also where triangles were cut.
 #include "Surfaces/Mesh/DiskTriangles.h"
-#include "Surfaces/SurfaceRelaxation/TriangleMasses.h"
+#include "Surfaces/SurfaceRelaxation/SurfaceMasses.h"
 
 #include <gtest/gtest.h>
 
