@@ -238,7 +238,7 @@ OTHERS = [
     S(CORE + "Flow/Tiles/TiledAdvection.h", "job.StopsAtMap = job.Backward;", ""),
     E(CORE + "Tables/GradedTables.h", "moment += cells[i] * (static_cast<double>(i) + «0.5»)", "0.0"),
     E(CORE + "Tables/DensityShare.h", "sum += values[cell] * («x.PartOf(i + cell)» * part)", "1.0"),
-    E(BRIDGE + "Plan/SharedFlow.cxx",
+    E(BRIDGE + "Plan/FlowCache.cxx",
       "if («this->Kind == FlowTables::Tiled»)\n  {\n    density.Prepare", "false"),
     E(BRIDGE + "Plan/FlowCache.cxx", "«tables == FlowTables::Whole» ? Sharing::Process", "true"),
     # several ranks
