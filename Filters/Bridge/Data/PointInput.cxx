@@ -3,7 +3,6 @@
 
 #include "Bridge/Run/Inputs/InputBlock.h"
 #include "Core/Geometry/PointBounds.h"
-#include "Core/Messages/Failure.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataObject.h"

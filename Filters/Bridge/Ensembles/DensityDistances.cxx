@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ensembles/DensityDistances.h"
 
-#include "Bridge/Data/ImageGrids.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Distance/ClassicalScaling.h"

@@ -6,7 +6,6 @@
 #include "Core/Geometry/Vectors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 

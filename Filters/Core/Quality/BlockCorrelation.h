@@ -9,7 +9,6 @@
 #include "Core/Tables/DensityShare.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -22,7 +22,6 @@
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
 class vtkDataObject;
-class vtkInformation;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 

@@ -9,7 +9,6 @@
 #include "Core/Parallel/Ranks.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
