@@ -28,7 +28,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN

@@ -20,7 +20,6 @@
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "Core/Flow/Kernels/SharedInputs.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace RectifiedTransport
 {

@@ -83,8 +83,6 @@
 #include "vtkRectifiedTransportMeshesModule.h" // for the export macro
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPolyData;
-
 class VTKRECTIFIEDTRANSPORTMESHES_EXPORT vtkSurfaceSampler : public vtkDiskAlgorithm
 {
 public:

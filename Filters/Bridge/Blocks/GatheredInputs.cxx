@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blocks/GatheredInputs.h"
 
-#include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/RankConsistency.h"

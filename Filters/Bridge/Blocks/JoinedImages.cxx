@@ -20,7 +20,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace RectifiedTransport::Bridge
 {

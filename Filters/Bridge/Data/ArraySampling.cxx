@@ -26,7 +26,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace RectifiedTransport::Bridge
 {

@@ -6,7 +6,6 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/TextToNumbers.h"
 #include "Core/Messages/NotFiniteValues.h"
-#include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
 #include "vtkArrayDispatch.h"
@@ -17,8 +16,6 @@
 #include "vtkPointSet.h"
 
 #include <cmath>
-#include <cstdint>
-#include <string>
 
 namespace RectifiedTransport::Bridge
 {

@@ -16,7 +16,6 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <string>
 
 namespace RectifiedTransport::Bridge
 {

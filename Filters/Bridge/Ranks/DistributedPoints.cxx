@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/DistributedPoints.h"
 
-#include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/TupleCopy.h"
 #include "Bridge/Ranks/RankConsistency.h"
 #include "Bridge/Ranks/TruncatedArrays.h"
@@ -28,7 +27,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <vector>
 

@@ -32,7 +32,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <string>
 #include <utility>
 
 namespace RectifiedTransport::Bridge

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
-#include <vector>
 
 namespace RectifiedTransport::Bridge
 {

@@ -3,7 +3,6 @@
 
 #include "Bridge/Data/ArraySampling.h"
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Ranks/DistributedSplat.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Series/AdvectedMeans.h"

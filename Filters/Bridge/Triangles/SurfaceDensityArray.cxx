@@ -9,7 +9,6 @@
 #include "Bridge/Triangles/TriangleInput.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 

@@ -21,7 +21,6 @@
 
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace RectifiedTransport::Bridge
 {

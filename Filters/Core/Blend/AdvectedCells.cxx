@@ -5,7 +5,6 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Stages.h"
 
-#include <algorithm>
 #include <functional>
 
 namespace RectifiedTransport

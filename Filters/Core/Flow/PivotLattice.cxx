@@ -10,8 +10,6 @@
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 namespace RectifiedTransport
 {

@@ -3,7 +3,6 @@
 
 #include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/FlowEngine.h"
-#include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/Steps/AutomaticSteps.h"
 #include "Core/Flow/Tiles/TiledEngine.h"
 #include "Core/Flow/WholeEngine.h"
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>

@@ -94,11 +94,8 @@ TableChoice chooseTablesForShares(
 template TableChoice chooseTables<1>(TableSetting, const GridSize<1>&, const TableUse&);
 template TableChoice chooseTables<2>(TableSetting, const GridSize<2>&, const TableUse&);
 template TableChoice chooseTables<3>(TableSetting, const GridSize<3>&, const TableUse&);
-template TableChoice chooseTablesForShares<1>(
-  TableSetting, const GridSize<1>&, const Point<1>&, double);
-template TableChoice chooseTablesForShares<2>(
-  TableSetting, const GridSize<2>&, const Point<2>&, double);
-template TableChoice chooseTablesForShares<3>(
-  TableSetting, const GridSize<3>&, const Point<3>&, double);
+template decltype(chooseTablesForShares<1>) chooseTablesForShares<1>;
+template decltype(chooseTablesForShares<2>) chooseTablesForShares<2>;
+template decltype(chooseTablesForShares<3>) chooseTablesForShares<3>;
 
 } // namespace RectifiedTransport

@@ -6,8 +6,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <cmath>
-
 namespace RectifiedTransport
 {
 

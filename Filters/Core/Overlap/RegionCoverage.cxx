@@ -2,8 +2,6 @@
 #include "Core/Overlap/RegionCoverage.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 
 namespace RectifiedTransport
 {

@@ -10,7 +10,6 @@
 #include "Core/Quality/DensityRows.h"
 #include "Core/Quality/LayerBins.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

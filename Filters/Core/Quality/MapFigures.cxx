@@ -143,11 +143,8 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
   return figures;
 }
 
-template MapFigures writeMap<1>(const MapOnLattice<1>&, const RectifiedFlow<1>&, FlowDirection,
-  const DensitySource<1>&, const MapTarget<1>*, const MapValues&, Progress&);
-template MapFigures writeMap<2>(const MapOnLattice<2>&, const RectifiedFlow<2>&, FlowDirection,
-  const DensitySource<2>&, const MapTarget<2>*, const MapValues&, Progress&);
-template MapFigures writeMap<3>(const MapOnLattice<3>&, const RectifiedFlow<3>&, FlowDirection,
-  const DensitySource<3>&, const MapTarget<3>*, const MapValues&, Progress&);
+template decltype(writeMap<1>) writeMap<1>;
+template decltype(writeMap<2>) writeMap<2>;
+template decltype(writeMap<3>) writeMap<3>;
 
 } // namespace RectifiedTransport

@@ -11,9 +11,7 @@
 #include "Core/Quality/GridBlocks.h"
 #include "Core/Quality/NearestNeighbours.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>

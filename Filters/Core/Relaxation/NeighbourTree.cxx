@@ -4,7 +4,6 @@
 #include "Core/Parallel/Polls.h"
 #include "Core/Parallel/Progress.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace RectifiedTransport

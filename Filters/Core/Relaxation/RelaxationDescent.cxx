@@ -4,7 +4,6 @@
 #include "Core/Parallel/Stages.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace RectifiedTransport
 {

@@ -5,7 +5,6 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Relaxation/NodeNumbering.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace RectifiedTransport

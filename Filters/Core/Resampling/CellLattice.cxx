@@ -4,7 +4,6 @@
 #include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>

@@ -5,7 +5,6 @@
 #include "Core/Resampling/CellPieces.h"
 #include "Core/Resampling/RingValues.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 

@@ -56,11 +56,8 @@ std::unique_ptr<const TransportPlan<D>> planInterval(const SeriesStep& from, con
   return plan;
 }
 
-template std::unique_ptr<const TransportPlan<1>> planInterval<1>(
-  const SeriesStep&, const SeriesStep&, const ImageGrid&, bool, Progress&);
-template std::unique_ptr<const TransportPlan<2>> planInterval<2>(
-  const SeriesStep&, const SeriesStep&, const ImageGrid&, bool, Progress&);
-template std::unique_ptr<const TransportPlan<3>> planInterval<3>(
-  const SeriesStep&, const SeriesStep&, const ImageGrid&, bool, Progress&);
+template decltype(planInterval<1>) planInterval<1>;
+template decltype(planInterval<2>) planInterval<2>;
+template decltype(planInterval<3>) planInterval<3>;
 
 } // namespace RectifiedTransport

@@ -6,7 +6,6 @@
 #include "Core/PowerCells/RectangleFit.h"
 #include "Core/PowerCells/SeparateSites.h"
 #include "Core/SiteCells/LabelPolygons.h"
-#include "Core/Tables/Density.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <utility>
 
 namespace RectifiedTransport
 {

@@ -8,7 +8,6 @@
 #include "Core/Tables/Kernels/TableKernels.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport

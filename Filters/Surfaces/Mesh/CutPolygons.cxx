@@ -10,7 +10,6 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace RectifiedTransport
 {

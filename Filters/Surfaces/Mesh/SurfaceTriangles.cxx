@@ -2,7 +2,6 @@
 #include "Surfaces/Mesh/SurfaceTriangles.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace RectifiedTransport
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surfaces/Parameterization/LocalMap.h"
 
-#include <algorithm>
-
 namespace RectifiedTransport
 {
 

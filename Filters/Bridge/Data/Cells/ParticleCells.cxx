@@ -2,7 +2,6 @@
 #include "Bridge/Data/Cells/ParticleCells.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/Progress.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"

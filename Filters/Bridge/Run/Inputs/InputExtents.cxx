@@ -16,7 +16,6 @@
 #include <array>
 #include <cctype>
 #include <limits>
-#include <string>
 
 namespace RectifiedTransport::Bridge
 {

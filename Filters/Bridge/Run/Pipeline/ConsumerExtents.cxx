@@ -12,7 +12,6 @@
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

@@ -11,7 +11,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <set>
-#include <vector>
 
 namespace RectifiedTransport::Bridge
 {

@@ -3,7 +3,6 @@
 
 #include "Core/Messages/PropertyCheck.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace RectifiedTransport

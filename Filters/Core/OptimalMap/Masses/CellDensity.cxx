@@ -6,8 +6,6 @@
 #include "Core/Parallel/Reduction.h"
 #include "Core/Tables/DensityInspection.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace RectifiedTransport

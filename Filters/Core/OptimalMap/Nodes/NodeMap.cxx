@@ -3,9 +3,7 @@
 
 #include "Core/Parallel/Progress.h"
 
-#include <cmath>
 #include <numeric>
-#include <vector>
 
 namespace RectifiedTransport
 {

@@ -3,7 +3,6 @@
 
 #include "Core/Parallel/Reduction.h"
 
-#include <cmath>
 #include <vector>
 
 namespace RectifiedTransport
