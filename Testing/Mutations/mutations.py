@@ -330,7 +330,7 @@ OTHERS = [
     E(CORE + "Quality/MapFolds.cxx", "«this->HasMass(sample)»)", "true"),
     E(CORE + "Quality/MapBlocks.cxx", "least[i] > «leastOfMean * this->Mean()»", "0.0"),
     E(CORE + "Quality/BlockImages.h", "return axis == 0 ? sum : «-sum»", "sum"),
-    E(BRIDGE + "Flow/MeshInversion.cxx", "const bool hasPieces = «type == VTK_POLY_LINE || type == VTK_TRIANGLE_STRIP»",
+    E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "const bool hasPieces = «type == VTK_POLY_LINE || type == VTK_TRIANGLE_STRIP»",
       "false"),
     E(CORE + "Geometry/InvertedCells.cxx", "«std::copysign(1.0, old)» * moved", "1.0"),
     E(CORE + "Equalize/AreaCorrection.cxx", "move[axis] += «weight» *", "(corner == 0 ? 1.0 : 0.0)"),

@@ -124,7 +124,7 @@ OTHERS = [
     E(SURFACES + "Seams/SeamShortening.cxx", "if («loops.size() == 2»)", "false"),
     E(SURFACES + "Seams/SeamSearch.cxx", "«neighbours > (joins ? 1 : 0)» ? beside", "false"),
     E(SURFACES + "Seams/SeamSearch.cxx", "!path.empty() && «mesh.LengthOf(path) >= least»;", "true"),
-    E(SURFACES + "Seams/DistortionPeaks.cxx", "if («density >= limits.Prominence * pass» &&", "true"),
+    E(SURFACES + "Seams/CutOpenComponent.cxx", "if («density >= limits.Prominence * pass» &&", "true"),
     E(SURFACES + "Seams/CutOpenComponent.cxx", "best = «last->Distortion < best->Distortion» ?", "false"),
     E(SURFACES + "Seams/CutOpenComponent.cxx", "if («distortion < opened.Distortion»)", "true"),
     E(SURFACES + "Seams/CutOpenComponent.cxx", "disk && «!this->Mesh.IsClosed()»", "true"),

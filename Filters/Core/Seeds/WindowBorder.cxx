@@ -2,7 +2,6 @@
 #include "Core/Seeds/WindowBorder.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Seeds/SeedCell.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "Core/Quality/MapBlocks.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Quality/CellPolygons.h"
+#include "Core/Quality/BoundaryIntegrals.h"
 #include "Core/Tables/DensityShare.h"
 
 #include "TestDensities.h"

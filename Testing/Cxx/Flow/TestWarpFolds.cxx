@@ -4,7 +4,7 @@
 #include "WarpTest.h"
 
 #include "Bridge/Data/ImageGrids.h"
-#include "Bridge/Flow/MeshInversion.h"
+#include "Bridge/Flow/DensityEqualizingWarp.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSetTriangleFilter.h"

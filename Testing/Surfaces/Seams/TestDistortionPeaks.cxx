@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where maps squeeze areas: at the tips of spots of known places and strengths, and nowhere else.
 #include "DiskSurfaces.h"
-#include "Surfaces/Seams/DistortionPeaks.h"
+#include "Surfaces/Seams/CutOpenComponent.h"
 
 #include <gtest/gtest.h>
 

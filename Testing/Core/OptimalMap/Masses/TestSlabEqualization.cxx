@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in cells: uneven ones become even, independent ones nearly stay, none leaves its cell.
-#include "Core/OptimalMap/Masses/SlabEqualization.h"
+#include "Core/OptimalMap/Masses/SampleCorrection.h"
 
 #include "OptimalMap/Masses/ParticleMasses.h"
 #include "TestDimensions.h"
