@@ -339,22 +339,12 @@ std::vector<Point<2>> stipple(const BoxDensity<2>& picture, std::int64_t count,
   return relax<2>(points, ink, options.Relax, stages["relax"]);
 }
 
-template class BoxDensity<1>;
-template decltype(sample<1>) sample<1>;
-template decltype(map<1>) map<1>;
-template decltype(distance<1>) distance<1>;
-template decltype(cells<1>) cells<1>;
-template class BoxDensity<2>;
-template decltype(sample<2>) sample<2>;
-template decltype(map<2>) map<2>;
-template decltype(distance<2>) distance<2>;
-template decltype(cells<2>) cells<2>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(BoxDensity);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(sample);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(map);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(distance);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(cells);
 template decltype(relax<2>) relax<2>;
-template class BoxDensity<3>;
-template decltype(sample<3>) sample<3>;
-template decltype(map<3>) map<3>;
-template decltype(distance<3>) distance<3>;
-template decltype(cells<3>) cells<3>;
 template decltype(relax<3>) relax<3>;
 
 } // namespace RectifiedTransport

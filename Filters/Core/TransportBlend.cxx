@@ -279,11 +279,7 @@ MadeDensity<Dimension> barycenter(const std::vector<BoxDensity<Dimension>>& dens
   return blend.Make(shares, stages["density"]);
 }
 
-template decltype(morph<1>) morph<1>;
-template decltype(morph<2>) morph<2>;
-template decltype(morph<3>) morph<3>;
-template decltype(barycenter<1>) barycenter<1>;
-template decltype(barycenter<2>) barycenter<2>;
-template decltype(barycenter<3>) barycenter<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(morph);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(barycenter);
 
 } // namespace RectifiedTransport

@@ -201,8 +201,6 @@ double ParticleSet<D>::Write(
   return cost;
 }
 
-template class ParticleSet<1>;
-template class ParticleSet<2>;
-template class ParticleSet<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(ParticleSet);
 
 } // namespace RectifiedTransport::Bridge

@@ -169,8 +169,6 @@ MapFigures MapField<D>::Write(const RectifiedFlow<D>& flow, FlowDirection direct
   return figures;
 }
 
-template class MapField<1>;
-template class MapField<2>;
-template class MapField<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(MapField);
 
 } // namespace RectifiedTransport::Bridge

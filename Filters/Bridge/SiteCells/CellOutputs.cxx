@@ -168,9 +168,7 @@ void writeOutlines(SiteCellOutlines<Dimension> outlines, vtkPolyData* output)
   output->GetCellData()->SetScalars(moveToArray<SiteIdArray>("SiteId", outlines.SiteIds));
 }
 
-template void writeOutlines<1>(SiteCellOutlines<1>, vtkPolyData*);
-template void writeOutlines<2>(SiteCellOutlines<2>, vtkPolyData*);
-template void writeOutlines<3>(SiteCellOutlines<3>, vtkPolyData*);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(writeOutlines);
 
 void writePolygons(SiteCellPolygons polygons, const CellOutputs& outputs, Progress& progress)
 {

@@ -119,8 +119,6 @@ void addAdvected(
   std::transform(moved.data(), moved.data() + wanted.Count(), density, density, std::plus<>());
 }
 
-template void addAdvected<1>(const AdvectedCells<1>&, const LatticePart<1>&, Progress&, double*);
-template void addAdvected<2>(const AdvectedCells<2>&, const LatticePart<2>&, Progress&, double*);
-template void addAdvected<3>(const AdvectedCells<3>&, const LatticePart<3>&, Progress&, double*);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(addAdvected);
 
 } // namespace RectifiedTransport

@@ -318,8 +318,6 @@ OptimalPositions blendOptimally(const std::vector<BlendedDensity<D>>& densities,
   return OptimalBlender<D>(densities, options, progress).Run();
 }
 
-template decltype(blendOptimally<1>) blendOptimally<1>;
-template decltype(blendOptimally<2>) blendOptimally<2>;
-template decltype(blendOptimally<3>) blendOptimally<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(blendOptimally);
 
 } // namespace RectifiedTransport

@@ -53,11 +53,7 @@ double memoryForBracket(const GridSize<Dimension>& cells)
   return TransportPlan<Dimension>::MemoryFor(cells, cells, optionsOfBounds(), use);
 }
 
-template decltype(bracketDistance<1>) bracketDistance<1>;
-template decltype(bracketDistance<2>) bracketDistance<2>;
-template decltype(bracketDistance<3>) bracketDistance<3>;
-template double memoryForBracket<1>(const GridSize<1>&);
-template double memoryForBracket<2>(const GridSize<2>&);
-template double memoryForBracket<3>(const GridSize<3>&);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(bracketDistance);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(memoryForBracket);
 
 } // namespace RectifiedTransport

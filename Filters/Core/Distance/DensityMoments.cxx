@@ -132,8 +132,6 @@ double leastSquaredDistance(const DensityMoments& a, const DensityMoments& b)
   return std::max(0.0, square + std::max(0.0, traces - 2.0 * cross - rounding * traces));
 }
 
-template decltype(momentsOf<1>) momentsOf<1>;
-template decltype(momentsOf<2>) momentsOf<2>;
-template decltype(momentsOf<3>) momentsOf<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(momentsOf);
 
 } // namespace RectifiedTransport

@@ -119,17 +119,9 @@ double meanSquaredDistance(const ReferenceImages& a, const ReferenceImages& b)
   return sum / static_cast<double>(count / Dimension);
 }
 
-template GridSize<1> referenceLattice<1>(const Point<1>&);
-template GridSize<2> referenceLattice<2>(const Point<2>&);
-template GridSize<3> referenceLattice<3>(const Point<3>&);
-template ReferenceImages mapReference<1>(const DensitySource<1>&, const Point<1>&, const Context&);
-template ReferenceImages mapReference<2>(const DensitySource<2>&, const Point<2>&, const Context&);
-template ReferenceImages mapReference<3>(const DensitySource<3>&, const Point<3>&, const Context&);
-template double memoryForReference<1>(const GridSize<1>&, const Point<1>&);
-template double memoryForReference<2>(const GridSize<2>&, const Point<2>&);
-template double memoryForReference<3>(const GridSize<3>&, const Point<3>&);
-template double meanSquaredDistance<1>(const ReferenceImages&, const ReferenceImages&);
-template double meanSquaredDistance<2>(const ReferenceImages&, const ReferenceImages&);
-template double meanSquaredDistance<3>(const ReferenceImages&, const ReferenceImages&);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(referenceLattice);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(mapReference);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(memoryForReference);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(meanSquaredDistance);
 
 } // namespace RectifiedTransport

@@ -196,8 +196,6 @@ double AreaCorrection<Dimension>::MemoryFor(const GridSize<Dimension>& size)
   return ofCorner * numberOfCorners<Dimension>(size) + equalizeAreasMemory<Dimension>(size);
 }
 
-template class AreaCorrection<1>;
-template class AreaCorrection<2>;
-template class AreaCorrection<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(AreaCorrection);
 
 } // namespace RectifiedTransport

@@ -371,11 +371,7 @@ double equalizeAreasMemory(const GridSize<Dimension>& size)
   }
 }
 
-template decltype(equalizeAreas<1>) equalizeAreas<1>;
-template decltype(equalizeAreas<2>) equalizeAreas<2>;
-template decltype(equalizeAreas<3>) equalizeAreas<3>;
-template decltype(equalizeAreasMemory<1>) equalizeAreasMemory<1>;
-template decltype(equalizeAreasMemory<2>) equalizeAreasMemory<2>;
-template decltype(equalizeAreasMemory<3>) equalizeAreasMemory<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(equalizeAreas);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(equalizeAreasMemory);
 
 } // namespace RectifiedTransport

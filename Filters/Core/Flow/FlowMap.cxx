@@ -326,8 +326,6 @@ std::int64_t FlowMap<Dimension>::MemorySize() const
   return bytes;
 }
 
-template class FlowMap<1>;
-template class FlowMap<2>;
-template class FlowMap<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(FlowMap);
 
 } // namespace RectifiedTransport

@@ -382,8 +382,6 @@ FlowOptions withFlowMaps(
 template struct FlowMapShape<1>;
 template struct FlowMapShape<2>;
 template struct FlowMapShape<3>;
-template FlowOptions withFlowMaps<1>(FlowOptions, const GridSize<1>&, FlowDirection, double);
-template FlowOptions withFlowMaps<2>(FlowOptions, const GridSize<2>&, FlowDirection, double);
-template FlowOptions withFlowMaps<3>(FlowOptions, const GridSize<3>&, FlowDirection, double);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(withFlowMaps);
 
 } // namespace RectifiedTransport

@@ -54,8 +54,6 @@ void MapDerivatives<Dimension>::Write(
   }
 }
 
-template class MapDerivatives<1>;
-template class MapDerivatives<2>;
-template class MapDerivatives<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(MapDerivatives);
 
 } // namespace RectifiedTransport

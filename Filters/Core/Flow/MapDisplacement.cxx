@@ -159,11 +159,7 @@ double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& latt
   return run.MeanSquare(sums);
 }
 
-template class MapDisplacement<1>;
-template class MapDisplacement<2>;
-template class MapDisplacement<3>;
-template decltype(writeDisplacements<1>) writeDisplacements<1>;
-template decltype(writeDisplacements<2>) writeDisplacements<2>;
-template decltype(writeDisplacements<3>) writeDisplacements<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(MapDisplacement);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(writeDisplacements);
 
 } // namespace RectifiedTransport

@@ -148,9 +148,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   return report;
 }
 
-template PivotLattice<1> pivotLattice<1>(const GridSize<1>&, std::int64_t);
-template PivotLattice<2> pivotLattice<2>(const GridSize<2>&, std::int64_t);
-template PivotLattice<3> pivotLattice<3>(const GridSize<3>&, std::int64_t);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(pivotLattice);
 
 template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, std::int64_t,
   PointSpan<1>, const FlowOptions&, const Context&);

@@ -365,11 +365,7 @@ std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& de
   return positions;
 }
 
-template class RectifiedFlow<1>;
-template class RectifiedFlow<2>;
-template class RectifiedFlow<3>;
-template decltype(transportPoints<1>) transportPoints<1>;
-template decltype(transportPoints<2>) transportPoints<2>;
-template decltype(transportPoints<3>) transportPoints<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(RectifiedFlow);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(transportPoints);
 
 } // namespace RectifiedTransport

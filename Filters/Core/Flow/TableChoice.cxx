@@ -91,11 +91,7 @@ TableChoice chooseTablesForShares(
     [&]() { return RectifiedFlow<D>::TiledSharesMemoryFor(size, aspect, boxes); });
 }
 
-template TableChoice chooseTables<1>(TableSetting, const GridSize<1>&, const TableUse&);
-template TableChoice chooseTables<2>(TableSetting, const GridSize<2>&, const TableUse&);
-template TableChoice chooseTables<3>(TableSetting, const GridSize<3>&, const TableUse&);
-template decltype(chooseTablesForShares<1>) chooseTablesForShares<1>;
-template decltype(chooseTablesForShares<2>) chooseTablesForShares<2>;
-template decltype(chooseTablesForShares<3>) chooseTablesForShares<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(chooseTables);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(chooseTablesForShares);
 
 } // namespace RectifiedTransport

@@ -8,6 +8,17 @@
 #include <array>
 #include <cstdint>
 
+// In a source: the instantiations of a template of the dimension for all dimensions. A function
+// must not be overloaded.
+#define RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(name)                                                 \
+  template class name<1>;                                                                          \
+  template class name<2>;                                                                          \
+  template class name<3>
+#define RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(name)                                              \
+  template decltype(name<1>) name<1>;                                                              \
+  template decltype(name<2>) name<2>;                                                              \
+  template decltype(name<3>) name<3>
+
 namespace RectifiedTransport
 {
 

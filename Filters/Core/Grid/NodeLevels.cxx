@@ -102,14 +102,8 @@ NodeGrid<Dimension> nodesOver(
   return grid;
 }
 
-template NodeGrid<1> nodesOver<1>(const GridSize<1>&, const Point<1>&, int);
-template NodeGrid<2> nodesOver<2>(const GridSize<2>&, const Point<2>&, int);
-template NodeGrid<3> nodesOver<3>(const GridSize<3>&, const Point<3>&, int);
-template GridSize<1> finestNodeCells<1>(const std::vector<Point<1>>&, double);
-template GridSize<2> finestNodeCells<2>(const std::vector<Point<2>>&, double);
-template GridSize<3> finestNodeCells<3>(const std::vector<Point<3>>&, double);
-template std::vector<GridSize<1>> nodeLevels<1>(const GridSize<1>&);
-template std::vector<GridSize<2>> nodeLevels<2>(const GridSize<2>&);
-template std::vector<GridSize<3>> nodeLevels<3>(const GridSize<3>&);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(nodesOver);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(finestNodeCells);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(nodeLevels);
 
 } // namespace RectifiedTransport

@@ -401,8 +401,6 @@ double NodePoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid, bool w
   return bytes;
 }
 
-template class NodePoisson<1>;
-template class NodePoisson<2>;
-template class NodePoisson<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(NodePoisson);
 
 } // namespace RectifiedTransport

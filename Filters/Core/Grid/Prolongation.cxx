@@ -55,8 +55,6 @@ NodeValues prolong(const NodeValues& values, const GridSize<Dimension>& from,
   return last;
 }
 
-template decltype(prolong<1>) prolong<1>;
-template decltype(prolong<2>) prolong<2>;
-template decltype(prolong<3>) prolong<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(prolong);
 
 } // namespace RectifiedTransport

@@ -182,8 +182,6 @@ double WeightedPoisson<Dimension>::MemoryFor(const NodeGrid<Dimension>& grid)
   return arrays * sizeof(double) * numberOfCorners<Dimension>(grid.Cells);
 }
 
-template class WeightedPoisson<1>;
-template class WeightedPoisson<2>;
-template class WeightedPoisson<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(WeightedPoisson);
 
 } // namespace RectifiedTransport

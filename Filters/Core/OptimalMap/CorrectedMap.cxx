@@ -138,8 +138,6 @@ void CorrectedMap<Dimension>::MeasureBlocks(const CellDensity<Dimension>& target
   this->Error = std::sqrt(errors / squares);
 }
 
-template class CorrectedMap<1>;
-template class CorrectedMap<2>;
-template class CorrectedMap<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(CorrectedMap);
 
 } // namespace RectifiedTransport

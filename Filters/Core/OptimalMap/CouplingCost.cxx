@@ -206,11 +206,7 @@ double memoryForCoupling(const GridSize<Dimension>& size, const NodeGrid<Dimensi
   return corners + std::max(memoryForBalancing<Dimension>(size), sharing);
 }
 
-template decltype(couplingCost<1>) couplingCost<1>;
-template decltype(couplingCost<2>) couplingCost<2>;
-template decltype(couplingCost<3>) couplingCost<3>;
-template decltype(memoryForCoupling<1>) memoryForCoupling<1>;
-template decltype(memoryForCoupling<2>) memoryForCoupling<2>;
-template decltype(memoryForCoupling<3>) memoryForCoupling<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(couplingCost);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(memoryForCoupling);
 
 } // namespace RectifiedTransport

@@ -405,8 +405,6 @@ double FixedCells<Dimension>::MemoryFor(const GridSize<Dimension>& nodes)
     sizeof(double) * Dimension * numberOfCorners<Dimension>(nodes);
 }
 
-template class FixedCells<1>;
-template class FixedCells<2>;
-template class FixedCells<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(FixedCells);
 
 } // namespace RectifiedTransport

@@ -232,8 +232,6 @@ CellShares<Dimension> shareImages(const CellDensity<Dimension>& source,
     : Sharing<Dimension, 1>(source, target, corners.Grid, progress).Share(corners);
 }
 
-template decltype(shareImages<1>) shareImages<1>;
-template decltype(shareImages<2>) shareImages<2>;
-template decltype(shareImages<3>) shareImages<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(shareImages);
 
 } // namespace RectifiedTransport

@@ -493,8 +493,6 @@ FlowReport OptimalMap<Dimension>::ForwardToCells(
   return report;
 }
 
-template class OptimalMap<1>;
-template class OptimalMap<2>;
-template class OptimalMap<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(OptimalMap);
 
 } // namespace RectifiedTransport

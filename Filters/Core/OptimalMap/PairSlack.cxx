@@ -47,8 +47,6 @@ void findSlack(const PotentialSolver<Dimension>& solver, ConstPointSpan<Dimensio
   });
 }
 
-template decltype(findSlack<1>) findSlack<1>;
-template decltype(findSlack<2>) findSlack<2>;
-template decltype(findSlack<3>) findSlack<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(findSlack);
 
 } // namespace RectifiedTransport

@@ -352,8 +352,6 @@ typename PointMap<Dimension>::Inverse PointMap<Dimension>::InverseAt(
   return inverse;
 }
 
-template class PointMap<1>;
-template class PointMap<2>;
-template class PointMap<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(PointMap);
 
 } // namespace RectifiedTransport

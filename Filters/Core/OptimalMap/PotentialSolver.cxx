@@ -488,8 +488,6 @@ double PotentialSolver<Dimension>::RefinedBound(Progress& progress) const
   return std::max(bound, this->Bound());
 }
 
-template class PotentialSolver<1>;
-template class PotentialSolver<2>;
-template class PotentialSolver<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(PotentialSolver);
 
 } // namespace RectifiedTransport

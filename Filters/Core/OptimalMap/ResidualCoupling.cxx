@@ -288,8 +288,6 @@ double coupleResidual(
   return ResidualCoupling<Dimension>(shares, target, progress).Cost();
 }
 
-template double coupleResidual<1>(const CellShares<1>&, const CellDensity<1>&, Progress&);
-template double coupleResidual<2>(const CellShares<2>&, const CellDensity<2>&, Progress&);
-template double coupleResidual<3>(const CellShares<3>&, const CellDensity<3>&, Progress&);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(coupleResidual);
 
 } // namespace RectifiedTransport

@@ -381,8 +381,6 @@ FlowReport TransportPlan<Dimension>::ForwardAt(const FlowSeeds<Dimension>& seeds
 template struct PlanEnd<1>;
 template struct PlanEnd<2>;
 template struct PlanEnd<3>;
-template class TransportPlan<1>;
-template class TransportPlan<2>;
-template class TransportPlan<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(TransportPlan);
 
 } // namespace RectifiedTransport

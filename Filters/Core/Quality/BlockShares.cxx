@@ -158,8 +158,6 @@ void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dime
   }
 }
 
-template decltype(findBlockShares<1>) findBlockShares<1>;
-template decltype(findBlockShares<2>) findBlockShares<2>;
-template decltype(findBlockShares<3>) findBlockShares<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(findBlockShares);
 
 } // namespace RectifiedTransport

@@ -473,12 +473,8 @@ BlockErrors measureBlocksBetween(const MapSamples<Dimension>& map,
     .Forward(stages["errors"], std::move(shares));
 }
 
-template decltype(measureBlocks<1>) measureBlocks<1>;
-template decltype(measureBlocks<2>) measureBlocks<2>;
-template decltype(measureBlocks<3>) measureBlocks<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(measureBlocks);
 
-template decltype(measureBlocksBetween<1>) measureBlocksBetween<1>;
-template decltype(measureBlocksBetween<2>) measureBlocksBetween<2>;
-template decltype(measureBlocksBetween<3>) measureBlocksBetween<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(measureBlocksBetween);
 
 } // namespace RectifiedTransport

@@ -143,8 +143,6 @@ MapFigures writeMap(const MapOnLattice<D>& map, const RectifiedFlow<D>& flow,
   return figures;
 }
 
-template decltype(writeMap<1>) writeMap<1>;
-template decltype(writeMap<2>) writeMap<2>;
-template decltype(writeMap<3>) writeMap<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(writeMap);
 
 } // namespace RectifiedTransport

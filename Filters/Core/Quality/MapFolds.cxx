@@ -162,8 +162,6 @@ bool MapFolds<Dimension>::HasMass(const GridSize<Dimension>& sample) const
   return false;
 }
 
-template class MapFolds<1>;
-template class MapFolds<2>;
-template class MapFolds<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(MapFolds);
 
 } // namespace RectifiedTransport

@@ -397,11 +397,7 @@ ParticleQuality measureQuality(const ParticleSample& particles,
     .Measure(progress);
 }
 
-template decltype(boxAspect<1>) boxAspect<1>;
-template decltype(boxAspect<2>) boxAspect<2>;
-template decltype(boxAspect<3>) boxAspect<3>;
-template decltype(measureQuality<1>) measureQuality<1>;
-template decltype(measureQuality<2>) measureQuality<2>;
-template decltype(measureQuality<3>) measureQuality<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(boxAspect);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(measureQuality);
 
 } // namespace RectifiedTransport

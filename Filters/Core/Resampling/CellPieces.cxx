@@ -168,8 +168,6 @@ bool CellPieces<D>::FindBox(std::int64_t cell, MultilinearBox<D>& box)
   return true;
 }
 
-template class CellPieces<1>;
-template class CellPieces<2>;
-template class CellPieces<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(CellPieces);
 
 } // namespace RectifiedTransport

@@ -429,29 +429,13 @@ void generateJitteredLatticeFrom(const GridSize<Dimension>& size, std::uint64_t 
   generateInCells<Dimension>(size, first, unitPoints, context, jitter);
 }
 
-template decltype(latticeSize<1>) latticeSize<1>;
-template decltype(latticeSize<2>) latticeSize<2>;
-template decltype(latticeSize<3>) latticeSize<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(latticeSize);
 
-template decltype(generateSeeds<1>) generateSeeds<1>;
-template decltype(generateSeedsFrom<1>) generateSeedsFrom<1>;
-template decltype(generateLattice<1>) generateLattice<1>;
-template decltype(generateLatticeFrom<1>) generateLatticeFrom<1>;
-template decltype(generateJitteredLattice<1>) generateJitteredLattice<1>;
-template decltype(generateJitteredLatticeFrom<1>) generateJitteredLatticeFrom<1>;
-
-template decltype(generateSeeds<2>) generateSeeds<2>;
-template decltype(generateSeedsFrom<2>) generateSeedsFrom<2>;
-template decltype(generateLattice<2>) generateLattice<2>;
-template decltype(generateLatticeFrom<2>) generateLatticeFrom<2>;
-template decltype(generateJitteredLattice<2>) generateJitteredLattice<2>;
-template decltype(generateJitteredLatticeFrom<2>) generateJitteredLatticeFrom<2>;
-
-template decltype(generateSeeds<3>) generateSeeds<3>;
-template decltype(generateSeedsFrom<3>) generateSeedsFrom<3>;
-template decltype(generateLattice<3>) generateLattice<3>;
-template decltype(generateLatticeFrom<3>) generateLatticeFrom<3>;
-template decltype(generateJitteredLattice<3>) generateJitteredLattice<3>;
-template decltype(generateJitteredLatticeFrom<3>) generateJitteredLatticeFrom<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(generateSeeds);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(generateSeedsFrom);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(generateLattice);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(generateLatticeFrom);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(generateJitteredLattice);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(generateJitteredLatticeFrom);
 
 } // namespace RectifiedTransport

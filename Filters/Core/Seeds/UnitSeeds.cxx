@@ -77,8 +77,6 @@ void UnitSeeds<Dimension>::GenerateFrom(
   }
 }
 
-template class UnitSeeds<1>;
-template class UnitSeeds<2>;
-template class UnitSeeds<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(UnitSeeds);
 
 } // namespace RectifiedTransport

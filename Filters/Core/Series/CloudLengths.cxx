@@ -119,11 +119,7 @@ void addCloudsAtImages(const PivotLattice<D>& lattice, const ImageGrid& here,
   });
 }
 
-template decltype(addCloudsInCells<1>) addCloudsInCells<1>;
-template decltype(addCloudsInCells<2>) addCloudsInCells<2>;
-template decltype(addCloudsInCells<3>) addCloudsInCells<3>;
-template decltype(addCloudsAtImages<1>) addCloudsAtImages<1>;
-template decltype(addCloudsAtImages<2>) addCloudsAtImages<2>;
-template decltype(addCloudsAtImages<3>) addCloudsAtImages<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(addCloudsInCells);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(addCloudsAtImages);
 
 } // namespace RectifiedTransport

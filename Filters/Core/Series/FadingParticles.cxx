@@ -186,8 +186,6 @@ SeriesParticles makeFadingParticles(const SeriesStep& from, const SeriesStep& to
   return ParticleMaker<D>(from, to, perCell, progress.Group()).Make(move, progress);
 }
 
-template decltype(makeFadingParticles<1>) makeFadingParticles<1>;
-template decltype(makeFadingParticles<2>) makeFadingParticles<2>;
-template decltype(makeFadingParticles<3>) makeFadingParticles<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(makeFadingParticles);
 
 } // namespace RectifiedTransport

@@ -56,8 +56,6 @@ std::unique_ptr<const TransportPlan<D>> planInterval(const SeriesStep& from, con
   return plan;
 }
 
-template decltype(planInterval<1>) planInterval<1>;
-template decltype(planInterval<2>) planInterval<2>;
-template decltype(planInterval<3>) planInterval<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(planInterval);
 
 } // namespace RectifiedTransport

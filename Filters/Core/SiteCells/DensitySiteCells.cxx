@@ -316,8 +316,6 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
     [&](std::int64_t pixel) { labels[pixel] = number[joined[labels[pixel]]]; });
 }
 
-template class DensitySiteCells<1>;
-template class DensitySiteCells<2>;
-template class DensitySiteCells<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(DensitySiteCells);
 
 } // namespace RectifiedTransport

@@ -169,8 +169,6 @@ void PixelMasses<Dimension>::RemoveEmptyPixels(std::int64_t* labels, Progress& p
     [&](std::int64_t pixel) { labels[pixel] = (*this)[pixel] > 0 ? labels[pixel] : -1; });
 }
 
-template class PixelMasses<1>;
-template class PixelMasses<2>;
-template class PixelMasses<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(PixelMasses);
 
 } // namespace RectifiedTransport

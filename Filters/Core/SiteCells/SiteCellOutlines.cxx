@@ -233,8 +233,6 @@ SiteCellOutlines<Dimension> outlineSiteCells(
   return Outlines<Dimension>(grid, labels).Find(progress);
 }
 
-template decltype(outlineSiteCells<1>) outlineSiteCells<1>;
-template decltype(outlineSiteCells<2>) outlineSiteCells<2>;
-template decltype(outlineSiteCells<3>) outlineSiteCells<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(outlineSiteCells);
 
 } // namespace RectifiedTransport

@@ -95,11 +95,7 @@ std::vector<std::int64_t> labelSiteCells(ConstPointSpan<3> sites, const ImageGri
   return labels;
 }
 
-template class SiteCells<1>;
-template class SiteCells<2>;
-template class SiteCells<3>;
-template decltype(labelSiteCells<1>) labelSiteCells<1>;
-template decltype(labelSiteCells<2>) labelSiteCells<2>;
-template decltype(labelSiteCells<3>) labelSiteCells<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(SiteCells);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(labelSiteCells);
 
 } // namespace RectifiedTransport

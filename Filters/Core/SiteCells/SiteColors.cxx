@@ -78,8 +78,6 @@ std::vector<std::uint8_t> colourSiteCells(const GridSize<Dimension>& size,
   return colourInOrder(neighbours);
 }
 
-template decltype(colourSiteCells<1>) colourSiteCells<1>;
-template decltype(colourSiteCells<2>) colourSiteCells<2>;
-template decltype(colourSiteCells<3>) colourSiteCells<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(colourSiteCells);
 
 } // namespace RectifiedTransport

@@ -53,8 +53,6 @@ std::int64_t SiteDensity<Dimension>::Find(std::int64_t pixel) const
   return std::lower_bound(this->Pixels.begin(), this->Pixels.end(), pixel) - this->Pixels.begin();
 }
 
-template class SiteDensity<1>;
-template class SiteDensity<2>;
-template class SiteDensity<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(SiteDensity);
 
 } // namespace RectifiedTransport

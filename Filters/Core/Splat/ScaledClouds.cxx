@@ -117,8 +117,6 @@ void splatClouds(const ScaledClouds<D>& clouds, const ImageGrid& grid, double mo
     [=](std::int64_t sum) { return std::ldexp(static_cast<double>(sum), -exponent) / measure; });
 }
 
-template decltype(splatClouds<1>) splatClouds<1>;
-template decltype(splatClouds<2>) splatClouds<2>;
-template decltype(splatClouds<3>) splatClouds<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(splatClouds);
 
 } // namespace RectifiedTransport

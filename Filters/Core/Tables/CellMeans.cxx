@@ -141,8 +141,6 @@ void CellMeans<D>::Write(const DensityValues& density, Progress& progress, doubl
     grain);
 }
 
-template class CellMeans<1>;
-template class CellMeans<2>;
-template class CellMeans<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(CellMeans);
 
 } // namespace RectifiedTransport

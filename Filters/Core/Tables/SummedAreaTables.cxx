@@ -115,8 +115,6 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   resize(this->Memory.Occupied, words);
 }
 
-template class SummedAreaTables<1>;
-template class SummedAreaTables<2>;
-template class SummedAreaTables<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(SummedAreaTables);
 
 } // namespace RectifiedTransport

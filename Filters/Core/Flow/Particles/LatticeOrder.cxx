@@ -70,8 +70,6 @@ void LatticeOrder<Dimension>::Fill(
   }
 }
 
-template class LatticeOrder<1>;
-template class LatticeOrder<2>;
-template class LatticeOrder<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(LatticeOrder);
 
 } // namespace RectifiedTransport

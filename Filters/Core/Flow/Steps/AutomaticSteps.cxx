@@ -466,8 +466,6 @@ StepChoice chooseSteps(FlowEngine<Dimension>& engine, const FlowOptions& options
   return StepChooser<Dimension>(engine, options, direction, context).Choose(options);
 }
 
-template decltype(chooseSteps<1>) chooseSteps<1>;
-template decltype(chooseSteps<2>) chooseSteps<2>;
-template decltype(chooseSteps<3>) chooseSteps<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(chooseSteps);
 
 } // namespace RectifiedTransport

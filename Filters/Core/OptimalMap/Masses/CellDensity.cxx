@@ -146,8 +146,6 @@ void CellDensity<Dimension>::MoveToMass(double* point, const Point<Dimension>& s
   }
 }
 
-template class CellDensity<1>;
-template class CellDensity<2>;
-template class CellDensity<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(CellDensity);
 
 } // namespace RectifiedTransport

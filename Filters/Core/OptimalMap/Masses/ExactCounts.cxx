@@ -332,11 +332,7 @@ double memoryForExactCounts(const GridSize<Dimension>& size, std::int64_t partic
     static_cast<double>(particles) * sizeof(Candidate);
 }
 
-template decltype(makeCountsExact<1>) makeCountsExact<1>;
-template decltype(makeCountsExact<2>) makeCountsExact<2>;
-template decltype(makeCountsExact<3>) makeCountsExact<3>;
-template decltype(memoryForExactCounts<1>) memoryForExactCounts<1>;
-template decltype(memoryForExactCounts<2>) memoryForExactCounts<2>;
-template decltype(memoryForExactCounts<3>) memoryForExactCounts<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(makeCountsExact);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(memoryForExactCounts);
 
 } // namespace RectifiedTransport

@@ -253,8 +253,6 @@ double KdTree<Dimension>::MemoryFor(const GridSize<Dimension>& size)
   return numberOfCells<Dimension>(size) / leafCells * 4.0 * sizeof(Node);
 }
 
-template class KdTree<1>;
-template class KdTree<2>;
-template class KdTree<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(KdTree);
 
 } // namespace RectifiedTransport

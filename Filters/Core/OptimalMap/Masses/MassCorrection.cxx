@@ -150,8 +150,6 @@ double MassCorrection<Dimension>::MemoryKept(const GridSize<Dimension>& target, 
   return numberOfCorners<Dimension>(grid.Cells) * sizeof(double) * steps * Dimension;
 }
 
-template class MassCorrection<1>;
-template class MassCorrection<2>;
-template class MassCorrection<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_CLASS(MassCorrection);
 
 } // namespace RectifiedTransport

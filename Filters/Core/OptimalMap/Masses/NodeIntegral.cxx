@@ -133,8 +133,6 @@ double integrateOver(const CellDensity<Dimension>& density,
   return Integral<Dimension>(density, placement, grid).Over(values, progress);
 }
 
-template decltype(integrateOver<1>) integrateOver<1>;
-template decltype(integrateOver<2>) integrateOver<2>;
-template decltype(integrateOver<3>) integrateOver<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(integrateOver);
 
 } // namespace RectifiedTransport

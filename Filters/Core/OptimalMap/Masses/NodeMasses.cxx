@@ -284,20 +284,12 @@ template NodeValues hatMasses<2>(
   const CellDensity<2>&, const CellPlacement<2>&, const NodeGrid<2>&, Progress&);
 template NodeValues hatMasses<3>(
   const CellDensity<3>&, const CellPlacement<3>&, const NodeGrid<3>&, Progress&);
-template decltype(hatSums<1>) hatSums<1>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(hatSums);
 template NodeValues hatMasses<1>(const double*, const GridSize<1>&, const NodeGrid<1>&, Progress&);
-template decltype(coarserCells<1>) coarserCells<1>;
-template decltype(hatSums<2>) hatSums<2>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(coarserCells);
 template NodeValues hatMasses<2>(const double*, const GridSize<2>&, const NodeGrid<2>&, Progress&);
-template decltype(coarserCells<2>) coarserCells<2>;
-template decltype(hatSums<3>) hatSums<3>;
 template NodeValues hatMasses<3>(const double*, const GridSize<3>&, const NodeGrid<3>&, Progress&);
-template decltype(coarserCells<3>) coarserCells<3>;
-template decltype(cellMasses<1>) cellMasses<1>;
-template decltype(cellMasses<2>) cellMasses<2>;
-template decltype(cellMasses<3>) cellMasses<3>;
-template decltype(lumpingExcess<1>) lumpingExcess<1>;
-template decltype(lumpingExcess<2>) lumpingExcess<2>;
-template decltype(lumpingExcess<3>) lumpingExcess<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(cellMasses);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(lumpingExcess);
 
 } // namespace RectifiedTransport

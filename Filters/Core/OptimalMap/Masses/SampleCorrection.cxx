@@ -238,12 +238,8 @@ double memoryForSlabEqualization(const GridSize<Dimension>& size, std::int64_t p
   return most * sizeof(double);
 }
 
-template void equalizeInSlabs<1>(const GridSize<1>&, PointSpan<1>, Progress&);
-template void equalizeInSlabs<2>(const GridSize<2>&, PointSpan<2>, Progress&);
-template void equalizeInSlabs<3>(const GridSize<3>&, PointSpan<3>, Progress&);
-template double memoryForSlabEqualization<1>(const GridSize<1>&, std::int64_t);
-template double memoryForSlabEqualization<2>(const GridSize<2>&, std::int64_t);
-template double memoryForSlabEqualization<3>(const GridSize<3>&, std::int64_t);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(equalizeInSlabs);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(memoryForSlabEqualization);
 
 // Exact counts need all samples, so each rank gathers them, computes the same, and keeps its own
 // part.
@@ -283,11 +279,7 @@ double memoryForCorrection(const GridSize<Dimension>& size, double samples, bool
   return ofSteps + (onSeveralRanks ? samples * Dimension * sizeof(double) : 0.0);
 }
 
-template void correctSamples<1>(const CellDensity<1>&, const Point<1>&, PointSpan<1>, Progress&);
-template void correctSamples<2>(const CellDensity<2>&, const Point<2>&, PointSpan<2>, Progress&);
-template void correctSamples<3>(const CellDensity<3>&, const Point<3>&, PointSpan<3>, Progress&);
-template double memoryForCorrection<1>(const GridSize<1>&, double, bool);
-template double memoryForCorrection<2>(const GridSize<2>&, double, bool);
-template double memoryForCorrection<3>(const GridSize<3>&, double, bool);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(correctSamples);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(memoryForCorrection);
 
 } // namespace RectifiedTransport

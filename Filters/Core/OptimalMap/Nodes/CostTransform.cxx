@@ -452,11 +452,7 @@ void costMinimizers(
   }
 }
 
-template void costTransform<1>(const NodeGrid<1>&, const double*, double*, Progress&);
-template void costTransform<2>(const NodeGrid<2>&, const double*, double*, Progress&);
-template void costTransform<3>(const NodeGrid<3>&, const double*, double*, Progress&);
-template void costMinimizers<1>(const NodeGrid<1>&, const double*, std::int64_t*, Progress&);
-template void costMinimizers<2>(const NodeGrid<2>&, const double*, std::int64_t*, Progress&);
-template void costMinimizers<3>(const NodeGrid<3>&, const double*, std::int64_t*, Progress&);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(costTransform);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(costMinimizers);
 
 } // namespace RectifiedTransport

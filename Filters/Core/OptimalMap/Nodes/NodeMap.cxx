@@ -149,12 +149,8 @@ void smoothMap(NodeMap<Dimension>& map, Progress& progress)
   }
 }
 
-template decltype(smoothMap<1>) smoothMap<1>;
-template decltype(smoothMap<2>) smoothMap<2>;
-template decltype(smoothMap<3>) smoothMap<3>;
-template decltype(limitFineness<1>) limitFineness<1>;
-template decltype(limitFineness<2>) limitFineness<2>;
-template decltype(limitFineness<3>) limitFineness<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(smoothMap);
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(limitFineness);
 // A map that stretches needs many samples a cell. Their mean is estimated from every eighth row; if
 // it is too large, the samples along each axis become fewer by the factor's Dimension-th root.
 template <int Dimension>
@@ -193,8 +189,6 @@ SampleFineness limitFineness(
   return fineness;
 }
 
-template decltype(writeGradientMap<1>) writeGradientMap<1>;
-template decltype(writeGradientMap<2>) writeGradientMap<2>;
-template decltype(writeGradientMap<3>) writeGradientMap<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(writeGradientMap);
 
 } // namespace RectifiedTransport

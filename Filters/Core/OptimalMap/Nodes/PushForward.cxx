@@ -36,8 +36,6 @@ void pushForward(const NodeMap<Dimension>& map, const double* cells, const Sampl
     firstCells);
 }
 
-template decltype(pushForward<1>) pushForward<1>;
-template decltype(pushForward<2>) pushForward<2>;
-template decltype(pushForward<3>) pushForward<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(pushForward);
 
 } // namespace RectifiedTransport

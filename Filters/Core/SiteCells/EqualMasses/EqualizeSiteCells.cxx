@@ -314,8 +314,6 @@ void equalizeSiteCells(const SiteDensity<Dimension>& sites, const Point<Dimensio
   Balance<Dimension>(sites, spacing, owners).Run(progress);
 }
 
-template decltype(equalizeSiteCells<1>) equalizeSiteCells<1>;
-template decltype(equalizeSiteCells<2>) equalizeSiteCells<2>;
-template decltype(equalizeSiteCells<3>) equalizeSiteCells<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(equalizeSiteCells);
 
 } // namespace RectifiedTransport

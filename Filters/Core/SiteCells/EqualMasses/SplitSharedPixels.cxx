@@ -343,9 +343,7 @@ void splitGroupsByMass(const SiteGroups& groups, const PixelMasses<Dimension>& m
   split<Dimension>(groups, masses.Size(), coordinates, spacing, &masses, owners, context);
 }
 
-template decltype(splitSharedPixels<1>) splitSharedPixels<1>;
-template decltype(splitSharedPixels<2>) splitSharedPixels<2>;
-template decltype(splitSharedPixels<3>) splitSharedPixels<3>;
+RECTIFIEDTRANSPORT_INSTANTIATE_FUNCTION(splitSharedPixels);
 template decltype(splitGroupsByMass<2>) splitGroupsByMass<2>;
 template decltype(splitGroupsByMass<3>) splitGroupsByMass<3>;
 
