@@ -5,7 +5,6 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Cartogram/MapOverlays.h"
-#include "Core/Cartogram/MapPlace.h"
 #include "Core/Cartogram/MapProjection.h"
 #include "Core/Cartogram/MapWarnings.h"
 #include "Core/Cartogram/RegionChecks.h"

@@ -6,7 +6,6 @@
 #define RectifiedTransport_BlendPositions_h
 
 #include "Bridge/Plan/FlowCache.h"
-#include "Bridge/Plan/TableChoice.h"
 #include "Bridge/Ranks/DistributedSplat.h"
 #include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Blend/BlendWeights.h"

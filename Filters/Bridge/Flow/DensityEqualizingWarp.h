@@ -4,7 +4,6 @@
 #define RectifiedTransport_DensityEqualizingWarp_h
 
 #include "Bridge/Plan/FlowCache.h"
-#include "Bridge/Plan/TableChoice.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/InvertedCells.h"

@@ -5,7 +5,6 @@
 #define RectifiedTransport_TransportMap_h
 
 #include "Bridge/Plan/FlowCache.h"
-#include "Bridge/Plan/TableChoice.h"
 
 namespace RectifiedTransport::Bridge
 {

@@ -4,7 +4,6 @@
 #define RectifiedTransport_TransportSampler_h
 
 #include "Bridge/Plan/FlowCache.h"
-#include "Bridge/Plan/TableChoice.h"
 #include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Seeds/Seeds.h"
 

@@ -6,9 +6,11 @@
 
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Plan/DensityPlan.h"
+#include "Bridge/Run/Memory.h"
 #include "Bridge/Store/Store.h"
 #include "Core/Equalize/AreaCorrection.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Flow/TableChoice.h"
 #include "Core/Plan/TransportPlan.h"
 
 #include "vtkTimeStamp.h"
@@ -129,6 +131,16 @@ private:
   StoreSlot Areas;
   vtkMTimeType Time = 0;
 };
+
+// The tables that were chosen. Throws Failure if tiles do not fit in memory.
+inline FlowTables requireTables(const TableChoice& choice)
+{
+  if (choice.Tables == FlowTables::Tiled)
+  {
+    requireMemory(choice.Memory);
+  }
+  return choice.Tables;
+}
 
 } // namespace RectifiedTransport::Bridge
 

@@ -4,7 +4,6 @@
 #define RectifiedTransport_TransportQuality_h
 
 #include "Bridge/Plan/FlowCache.h"
-#include "Bridge/Plan/TableChoice.h"
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/Settings/TransportSettings.h"
 #include "Core/Quality/ParticleQuality.h"

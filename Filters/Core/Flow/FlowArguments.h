@@ -7,7 +7,7 @@
 #include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Geometry/GridSize.h"
 #include "Core/Geometry/LatticePart.h"
-#include "Core/Messages/CountText.h"
+#include "Core/Messages/PartText.h"
 
 #include <cstdint>
 #include <stdexcept>

@@ -3,7 +3,7 @@
 
 #include "Core/Flow/Particles/LatticeOrder.h"
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Messages/CountText.h"
+#include "Core/Messages/PartText.h"
 
 #include <stdexcept>
 #include <string>

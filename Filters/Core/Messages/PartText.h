@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part of a whole as text, and when it is worth a warning.
+// A count and a part of a whole as text, and when the part is worth a warning.
 #ifndef RectifiedTransport_PartText_h
 #define RectifiedTransport_PartText_h
 
@@ -9,6 +9,16 @@
 
 namespace RectifiedTransport
 {
+
+// All digits of a count.
+inline std::string describeCount(double count)
+{
+  std::ostringstream text;
+  constexpr int allDigits = 17;
+  text.precision(allDigits);
+  text << count;
+  return text.str();
+}
 
 // "0.41 %", "8.1 %", "810 %": never with an exponent.
 inline std::string percentText(double part)

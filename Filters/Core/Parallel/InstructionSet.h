@@ -3,6 +3,8 @@
 #ifndef RectifiedTransport_InstructionSet_h
 #define RectifiedTransport_InstructionSet_h
 
+#include <type_traits>
+
 namespace RectifiedTransport
 {
 
@@ -22,6 +24,25 @@ InstructionSet widestInstructionSet();
 // The widest, or the narrower one that the environment variable RECTIFIEDTRANSPORT_ISA (SSE2, AVX2
 // or AVX512) names. It is read once. All kernels compute the same bits.
 InstructionSet instructionSet();
+
+// kernelsOf(set), the set being a constant of the compiler. AVX2 and AVX-512 exist on x86 alone;
+// elsewhere the kernels of the base instruction set carry the name SSE2.
+template <class KernelsOf>
+decltype(auto) chooseKernels([[maybe_unused]] InstructionSet set, const KernelsOf& kernelsOf)
+{
+  using Set = InstructionSet;
+#ifdef RECTIFIEDTRANSPORT_X86
+  if (set == Set::AVX512)
+  {
+    return kernelsOf(std::integral_constant<Set, Set::AVX512>());
+  }
+  if (set == Set::AVX2)
+  {
+    return kernelsOf(std::integral_constant<Set, Set::AVX2>());
+  }
+#endif
+  return kernelsOf(std::integral_constant<Set, Set::SSE2>());
+}
 
 } // namespace RectifiedTransport
 

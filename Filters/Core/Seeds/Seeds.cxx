@@ -3,7 +3,7 @@
 
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/Messages/CountText.h"
+#include "Core/Messages/PartText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Seeds/BlueNoise.h"
 

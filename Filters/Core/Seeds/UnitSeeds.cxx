@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seeds/UnitSeeds.h"
 
-#include "Core/Messages/CountText.h"
+#include "Core/Messages/PartText.h"
 
 #include <stdexcept>
 #include <string>

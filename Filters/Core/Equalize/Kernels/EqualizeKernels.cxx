@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Equalize/Kernels/EqualizeKernels.h"
 
-#include "Core/Parallel/KernelChoice.h"
-
 namespace RectifiedTransport
 {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Kernels/FlowKernels.h"
 
-#include "Core/Parallel/KernelChoice.h"
-
 #include <cstddef>
 
 namespace RectifiedTransport

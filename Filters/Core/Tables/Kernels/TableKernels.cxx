@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/Kernels/TableKernels.h"
 
-#include "Core/Parallel/KernelChoice.h"
-
 namespace RectifiedTransport
 {
 

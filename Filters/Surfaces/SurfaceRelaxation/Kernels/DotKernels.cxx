@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surfaces/SurfaceRelaxation/Kernels/DotKernels.h"
 
-#include "Core/Parallel/KernelChoice.h"
-
 namespace RectifiedTransport
 {
 
