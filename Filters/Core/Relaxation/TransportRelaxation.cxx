@@ -19,8 +19,8 @@ namespace
 {
 
 // Half the cost of the optimal transport from a density to equal masses at points, as a function of
-// their positions. Its gradient is the displacement from the centroids of the cells
-// to the points; a whole step is that of de Goes et al. 2012 (Section 4.2).
+// their positions. Its gradient is the displacement from the centroids of the cells to the points;
+// a whole step is that of de Goes et al. 2012 (Section 4.2).
 class TransportEnergy final : public RelaxationEnergy<2>
 {
 public:

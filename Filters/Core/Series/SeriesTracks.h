@@ -24,9 +24,9 @@ struct MoveReport
 template <int D>
 using MoveSamples = std::function<MoveReport(PointSpan<D> samples, Progress& progress)>;
 
-// Particles that keep their identity through all steps of a series. Equal shares of the mass. They
-// begin as samples of the first step, and each interval's map takes all of them together to the
-// next step, so that errors of masses do not add up. Each rank has a share.
+// Particles that keep their identity through all steps of a series. They have equal shares of the
+// mass. They begin as samples of the first step, and each interval's map takes all of them together
+// to the next step, so that errors of masses do not add up. Each rank has a share.
 class TrackedParticles
 {
 public:

@@ -16,9 +16,10 @@
 namespace RectifiedTransport
 {
 
-// Cuts a triangle at points on its sides. The points on the side from corner i to the next one,
-// from there on; they are numbers of a caller's. No part has all three points on one side. The
-// parts turn as the triangle does. Where there is a choice, new edges are short. O(points).
+// Cuts a triangle at points on its sides. `sides` has the points on the side from corner i to the
+// next one, in this order; points are numbers of a caller's. No part has all three points on one
+// side. The parts turn as the triangle does. Where there is a choice, new edges are short.
+// O(points).
 class SplitTriangle
 {
 public:
