@@ -4,7 +4,6 @@
 #include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Parallel/Stages.h"
-#include "Core/Quality/BlockCells.h"
 #include "Core/Quality/BlockImages.h"
 #include "Core/Quality/BoundaryIntegrals.h"
 #include "Core/Quality/DensityRows.h"

@@ -67,6 +67,15 @@ private:
   std::vector<double> Parts; // each block's part in N E
 };
 
+// A bound of the spacings, and so of the widths of kernels, for points distributed very differently
+// from the density: many points in a place that should have few would all be neighbours.
+//
+// The largest spacing, at least 1, with which points have an affordable number of neighbours on
+// average; infinity if none is too large. `reach` is that of NeighbourTree.
+template <int Dimension>
+double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dimension> points,
+  double reach, Progress& progress);
+
 } // namespace RectifiedTransport
 
 #endif

@@ -4,7 +4,6 @@
 #include "Core/Relaxation/RelaxationDescent.h"
 #include "Core/Relaxation/RelaxedPoints.h"
 #include "Core/Relaxation/RepulsionEnergy.h"
-#include "Core/Relaxation/SpacingLimit.h"
 
 #include <cmath>
 #include <limits>

@@ -3,7 +3,6 @@
 #include "Core/Relaxation/RepulsionEnergy.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Relaxation/SpacingLimit.h"
 
 #include "TestFlow.h"
 
