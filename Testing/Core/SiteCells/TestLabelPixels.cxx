@@ -26,8 +26,8 @@ TEST(LabelPixels, TheDimensionChoosesTheirNumber)
 
 TEST(LabelPixels, TheirMemoryAndWhatHelpsIsSaid)
 {
-  EXPECT_EQ(describeLabelPixels(labelPixels(gridOfBox(Cube), 0)),
-    "64 x 64 x 64 pixels take about 10.7 MB");
+  EXPECT_EQ(
+    describeLabelPixels(labelPixels(gridOfBox(Cube), 0)), "64 x 64 x 64 pixels take about 10.7 MB");
   const ImageGrid many = labelPixels(gridOfBox(Cube), 512);
   EXPECT_TRUE(areManyPixels(many));
   EXPECT_EQ(describeLabelPixels(many),
