@@ -106,6 +106,10 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     {
       return this->RequestDataObject(request, inputVector, outputVector);
     }
+    if (this->NeedsSecond && inputVector[1]->GetNumberOfInformationObjects() == 0)
+    {
+      return this->ProcessWithoutSecond(request, outputVector);
+    }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
     {
       // The executive has copied times and arrays of the first input; RequestInformation starts
@@ -157,6 +161,22 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
     // Before the data, an error ends the update: else they would be made all the same.
     return this->Failed && !request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()) ? 0 : result;
   }
+}
+
+//------------------------------------------------------------------------------
+int vtkCollectiveAlgorithm::ProcessWithoutSecond(
+  vtkInformation* request, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    announceEmptyExtents(outputVector);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    fail("The second input, Target or Density, is missing; choose it on ParaView's panel, or "
+         "connect input port 1");
+  }
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -414,10 +434,13 @@ void vtkCollectiveAlgorithm::AddInputPort(
   {
     info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
   }
-  if (inputs != PORT_ONE_INPUT)
+  // ParaView's dialog goes on without a second input: the executive's errors would be many.
+  const bool isSecond = inputs == PORT_ONE_INPUT && port > 0;
+  this->NeedsSecond = this->NeedsSecond || isSecond;
+  if (inputs != PORT_ONE_INPUT || isSecond)
   {
-    info->Set(inputs == PORT_OPTIONAL_INPUT ? vtkAlgorithm::INPUT_IS_OPTIONAL()
-                                            : vtkAlgorithm::INPUT_IS_REPEATABLE(),
+    info->Set(inputs == PORT_SEVERAL_INPUTS ? vtkAlgorithm::INPUT_IS_REPEATABLE()
+                                            : vtkAlgorithm::INPUT_IS_OPTIONAL(),
       1);
   }
   switch (policy)

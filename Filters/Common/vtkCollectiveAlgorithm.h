@@ -246,6 +246,7 @@ protected:
 private:
   vtkTypeBool ProcessCaught(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
+  int ProcessWithoutSecond(vtkInformation* request, vtkInformationVector* outputVector);
   int ProcessInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
@@ -266,6 +267,7 @@ private:
     Run; // during RequestData and RequestInformation
   bool HasNextPass = false;
   bool WasAborted = false;
+  bool NeedsSecond = false; // input, on port 1
   bool Failed = false;
   std::map<int, PortPolicyType> Gathered; // by port; none where ranks share the work
   bool IsAlone = false;                   // on the first rank, with gathered data

@@ -10,6 +10,8 @@
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkSMProxySelectionModel.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
 #include "vtkSmartPointer.h"
@@ -40,8 +42,13 @@ vtkSMViewProxy* vtkTransportDisplayController::ShowInPreferredView(
   if (producer && shown && shown != view && RectifiedTransport::hasScatter(producer, outputPort))
   {
     this->IsForTable = true;
-    Superclass::ShowInPreferredView(producer, outputPort, shown);
+    this->AssignViewToLayout(shown);
+    this->AssignViewToLayout(Superclass::ShowInPreferredView(producer, outputPort, shown));
     this->IsForTable = false;
+    // A view that is made becomes the active one.
+    producer->GetSessionProxyManager()
+      ->GetSelectionModel("ActiveView")
+      ->SetCurrentProxy(shown, vtkSMProxySelectionModel::CLEAR_AND_SELECT);
   }
   return shown;
 }

@@ -185,8 +185,8 @@ void ResampledDensity::FillSurfaces(
   all->Update();
   SolidDensity solid{ resolution, 2, 0.0, false, false };
   solid.OpenAdvice =
-    ". Sample Surface puts particles on an open surface; Solid Density with OpenSurfaces "
-    "WindingNumber makes a density of it, for particles inside";
+    "Sample Surface puts particles on an open surface; Solid Density with OpenSurfaces "
+    "WindingNumber makes a density of it, for particles inside. ";
   solid.ResolutionName = "DensityResolution";
   this->Image = vtkSmartPointer<vtkImageData>::New();
   const SolidDensityReport report = solid.Run(

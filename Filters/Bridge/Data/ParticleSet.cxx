@@ -197,7 +197,7 @@ double ParticleSet<D>::Write(
     data->AddArray(std::exchange(this->SeedPosition, nullptr));
     data->SetVectors(further);
   }
-  data->SetScalars(masses); // which tools take first
+  data->AddArray(masses);
   return cost;
 }
 

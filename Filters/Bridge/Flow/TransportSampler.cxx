@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/TransportSampler.h"
 
+#include "Bridge/Data/Cells/ParticleCells.h"
 #include "Bridge/Data/GhostFlags.h"
 #include "Bridge/Data/ParticleSet.h"
 #include "Bridge/Data/SeedInput.h"
@@ -223,6 +224,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
       { places->GetPointer(0), places->GetNumberOfTuples() }, stages["arrays"],
       output->GetPointData());
   }
+  activateMass(output);
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);
   if (sampler.FlowTime == 1.0) // as the bound is

@@ -80,7 +80,7 @@ ClosedSurface::ClosedSurface(
     !problem.empty() && this->Mesh->OpenEdges() + this->Mesh->NonManifoldEdges() > 0;
   if (!problem.empty() && !(this->StaysOpen && mayBeOpen))
   {
-    throw Failure("The input surface " + problem + (this->StaysOpen ? advice : ""));
+    throw Failure((this->StaysOpen ? advice : "") + "The input surface " + problem);
   }
 }
 

@@ -35,7 +35,7 @@ public:
   // rounding, which is 1e-9 of the longest side of the polygons' bounds or four rounding errors of
   // float coordinates, and at T-junctions that gape by up to 1e-5, 1e-4, 1e-3 or 1e-2 of
   // that side. Throws Failure if the input has no polygons, coordinates that are not finite, or
-  // edges of an odd number of triangles that may not stay, with an advice at its end, and
+  // edges of an odd number of triangles that may not stay, after an advice, and
   // Cancelled.
   ClosedSurface(vtkPolyData* input, bool mayBeOpen, const std::string& advice, Progress& progress);
 

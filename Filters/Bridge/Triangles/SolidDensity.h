@@ -42,8 +42,8 @@ struct SolidDensity
   double Padding;
   bool OnPoints;
   bool MayBeOpen; // OpenSurfaces
-  // What ends the error about an open surface, and what users know Resolution by.
-  std::string OpenAdvice = ". OpenSurfaces WindingNumber takes it with its holes";
+  // What the error about an open surface begins with, as lists of messages cut its end, and what users know Resolution by.
+  std::string OpenAdvice = "OpenSurfaces WindingNumber takes this surface with its holes. ";
   const char* ResolutionName = "Resolution";
 
   // The grid of the image around a surface that is distributed over ranks; without points if there

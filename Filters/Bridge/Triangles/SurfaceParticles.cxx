@@ -79,7 +79,7 @@ vtkSmartPointer<vtkDoubleArray> writeParticles(
   });
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
-  data->SetScalars(masses); // which tools take first
+  data->AddArray(masses);
   data->AddArray(cells);
   data->SetNormals(normals);
   return points;
@@ -122,6 +122,7 @@ void writeSurfaceParticles(
   setParticles(output, points, 1, stages["cells"]);
   sampleArrays({ { input }, "input surface", true }, SurfaceProbe(on), stages["arrays"],
     output->GetPointData());
+  activateMass(output);
   addFieldValue(output, "TotalMass", totalMass);
 }
 

@@ -82,7 +82,8 @@ void checkValues(Checks& checks, vtkImageData* image, int line)
   {
     return;
   }
-  checks.That(output->GetPointData()->GetScalars() == nullptr, "no active scalars", line);
+  vtkDataArray* scalars = output->GetPointData()->GetScalars();
+  checks.That(scalars && scalars == pointArray(output, "Mass"), "active scalars", line);
   double largest = 0.0;
   bool isInCell = true;
   bool isNamed = true;

@@ -106,7 +106,7 @@ void checkCellArrays(Checks& checks)
     vtkDataArray* numbers = pointArray(particles, "Number");
     auto* texts = vtkStringArray::SafeDownCast(particles->GetPointData()->GetAbstractArray("Name"));
     CHECK(checks, numbers && numbers->GetDataType() == VTK_INT && texts);
-    CHECK(checks, !particles->GetPointData()->GetScalars());
+    CHECK(checks, particles->GetPointData()->GetScalars() == pointArray(particles, "Mass"));
     for (vtkIdType i = 0; i < 300; ++i)
     {
       const double cell = pointArray(particles, "CellId")->GetTuple1(i);

@@ -129,7 +129,7 @@ class Boxes(unittest.TestCase):
         for filter_ in FILTERS:
             if filter_.one_box:
                 message = error_of(of_several(filter_, sources))
-                self.assertIn("all must fill the same box (Resample To Image of each makes it so", message)
+                self.assertIn("all must fill the same box (Resample To Image of each, ", message)
                 resampled = self.follow(sources, message)
                 proxy = of_several(filter_, resampled)
                 self.assertGreater(size_of(output_of(proxy)), 0, filter_.label)
@@ -157,6 +157,13 @@ class Boxes(unittest.TestCase):
                                    UpperThreshold=bounds[1])
             parts.append(box)
         self.check(parts, 2 * 3 ** 0.5)
+
+    def test_surfaces(self):
+        """What Solid Density makes of each."""
+        balls = [simple.Sphere(Center=[x, 0, 0], ThetaResolution=24, PhiResolution=24) for x in (0, 1.5)]
+        message = error_of(simple.TransportDistance(Input=balls, DensityResolution=16))
+        solids = self.follow([simple.SolidDensity(ball, Resolution=16) for ball in balls], message)
+        self.assertLess(abs(found_distance(distance(solids)) - 1.5), 0.1)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@
 import unittest
 
 import numpy as np
-from rt_testing import Listener, density_image, load_plugin, main, output_of, producer
+from rt_filters import FILTERS
+from rt_testing import Listener, density_image, load_plugin, main, output_of, producer, size_of
 
 simple = load_plugin()
 
@@ -143,6 +144,23 @@ class Errors(unittest.TestCase):
         self.assertEqual(len(reported.warnings), 1)
         self.assertIn("3 of 4 points outside the domain of the density moved to its border",
                       reported.warnings[0])
+
+    def test_second_input(self):
+        """ParaView's dialog goes on without it: one error, and a later choice is taken."""
+        found = [filter_ for filter_ in FILTERS if len(filter_.inputs) > 1]
+        self.assertEqual(len(found), 4)
+        for filter_ in found:
+            with self.subTest(filter_.label):
+                image = producer(simple, density_image((6, 5)))
+                first, second = filter_.inputs
+                source = image if filter_.inputs[first] == "density" else simple.Plane()
+                made = getattr(simple, filter_.name)(source, **filter_.quick)
+                reported = Listener(made.GetClientSideObject())
+                self.assertEqual(size_of(output_of(made)), 0)
+                self.assertEqual(len(reported.errors), 1)
+                self.assertIn("The second input, Target or Density, is missing; choose it", reported.errors[0])
+                setattr(made, second, image)
+                self.assertGreater(size_of(output_of(made)), 0)
 
     def test_solid(self):
         solid = simple.SolidDensity(Input=simple.Plane(XResolution=3))

@@ -308,6 +308,11 @@ class Gui(GuiTest):
         source = next(prop for prop in tables.iter("Property") if prop.get("name") == "Input").find("Proxy")
         self.assertEqual((source.get("value"), source.get("output_port")),
                          (proxies_of(saved)["TransportDistance"].get("id"), "2"))
+        layout = proxies_of(saved)["ViewLayout"]
+        shown = {item.get("view") for item in layout.iter("Item")} - {"0"}
+        views = {proxy.get("type"): proxy.get("id") for proxy in saved.iter("Proxy")
+                 if proxy.get("group") == "views"}
+        self.assertEqual(shown, set(views.values()))
 
     @unittest.skipUnless(PANEL_WIDGETS, "the plugin's widgets are not built")
     def test_target_of_a_map(self):

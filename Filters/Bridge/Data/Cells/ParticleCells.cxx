@@ -6,6 +6,7 @@
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
@@ -51,6 +52,14 @@ void setParticles(
   else
   {
     output->SetVerts(cells);
+  }
+}
+
+void activateMass(vtkPolyData* particles)
+{
+  if (!particles->GetPointData()->GetScalars())
+  {
+    particles->GetPointData()->SetActiveScalars("Mass");
   }
 }
 

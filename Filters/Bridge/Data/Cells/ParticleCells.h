@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points and vtkCells of particles: each has its own range of consecutive points.
+// The points and vtkCells of particles: each has its own range of consecutive points. Their active
+// scalars.
 #ifndef RectifiedTransport_ParticleCells_h
 #define RectifiedTransport_ParticleCells_h
 
@@ -24,6 +25,8 @@ vtkSmartPointer<vtkCellArray> newParticleCells(
 // Sets the points of particles, and their cells: vertices, or lines of several points.
 void setParticles(
   vtkPolyData* output, vtkDataArray* points, vtkIdType pointsEach, Progress& progress);
+// Makes the masses active, which tools take first, where no other scalars are.
+void activateMass(vtkPolyData* particles);
 
 } // namespace RectifiedTransport::Bridge
 

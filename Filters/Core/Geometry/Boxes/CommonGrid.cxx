@@ -75,8 +75,9 @@ std::string sameBoxAdvice(const ImageGrid& first, const ImageGrid& other)
     bounds += textOf(low[a]) + " " + textOf(high[a]) + " ";
     dimensions += (axis > 0 ? " " : "") + textOf(std::clamp(values, 1.0, 1e9));
   }
-  return "Resample To Image of each makes it so, with Use Input Bounds off and the same Sampling "
-         "Bounds and Sampling Dimensions; " +
+  return "Resample To Image of each, for a surface of what Solid Density makes of it, does so, "
+         "with "
+         "Use Input Bounds off and the same Sampling Bounds and Sampling Dimensions; " +
     bounds + "and " + dimensions + " hold these two";
 }
 
