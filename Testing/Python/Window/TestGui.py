@@ -303,7 +303,7 @@ class Gui(GuiTest):
     def test_names_of_a_chart(self):
         """The table beside the chart has them."""
         saved = self.state_after("gui-chart.png", choose("Filters", "TransportDistance"), APPLY,
-                                 script_text=OPEN_BOTH)
+                                 script_text=OPEN_BOTH.replace("255", "511"))
         tables = proxies_of(saved)["SpreadSheetRepresentation"]
         source = next(prop for prop in tables.iter("Property") if prop.get("name") == "Input").find("Proxy")
         self.assertEqual((source.get("value"), source.get("output_port")),
