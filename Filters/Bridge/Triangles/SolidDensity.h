@@ -42,7 +42,8 @@ struct SolidDensity
   double Padding;
   bool OnPoints;
   bool MayBeOpen; // OpenSurfaces
-  // What the error about an open surface begins with, as lists of messages cut its end, and what users know Resolution by.
+  // What the error about an open surface begins with, as lists of messages cut its end, and what
+  // users know Resolution by.
   std::string OpenAdvice = "OpenSurfaces WindingNumber takes this surface with its holes. ";
   const char* ResolutionName = "Resolution";
 
