@@ -164,6 +164,13 @@ vtkTypeBool vtkCollectiveAlgorithm::ProcessCaught(
 }
 
 //------------------------------------------------------------------------------
+bool vtkCollectiveAlgorithm::NeedsInput(int port)
+{
+  return (port == 1 && this->NeedsSecond) ||
+    !this->GetInputPortInformation(port)->Has(vtkAlgorithm::INPUT_IS_OPTIONAL());
+}
+
+//------------------------------------------------------------------------------
 int vtkCollectiveAlgorithm::ProcessWithoutSecond(
   vtkInformation* request, vtkInformationVector* outputVector)
 {

@@ -88,6 +88,12 @@ public:
   bool HasFailed() const { return this->Failed; }
 
   /**
+   * Whether an input port must be connected. VTK takes a second one for optional all the same: its
+   * lack is then one error of the run, and not several of the executive.
+   */
+  bool NeedsInput(int port);
+
+  /**
    * After an abort, run again at the next update, which would find the outputs up to date.
    */
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,

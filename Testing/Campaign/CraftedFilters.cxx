@@ -3,6 +3,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCollectiveAlgorithm.h"
 #include "vtkDensityAlgorithm.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
@@ -111,7 +112,7 @@ vtkSmartPointer<vtkAlgorithm> newCrafted(
   {
     vtkInformation* information = filter->GetInputPortInformation(port);
     const bool isCrafted = port == crafted.Port;
-    if (!isCrafted && information->Has(vtkAlgorithm::INPUT_IS_OPTIONAL()))
+    if (!isCrafted && !vtkCollectiveAlgorithm::SafeDownCast(filter)->NeedsInput(port))
     {
       continue;
     }

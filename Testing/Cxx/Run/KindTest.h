@@ -7,6 +7,7 @@
 #include "../../Campaign/FilterKind.h"
 #include "TestData.h"
 
+#include "vtkCollectiveAlgorithm.h"
 #include "vtkInformation.h"
 
 // What a port of a filter takes: points, a surface or, else, a density or the geometry of an image.
@@ -28,7 +29,8 @@ inline PortKind portKind(vtkAlgorithm* filter, int port)
 
 inline bool isNeeded(vtkAlgorithm* filter, int port)
 {
-  return !filter->GetInputPortInformation(port)->Has(vtkAlgorithm::INPUT_IS_OPTIONAL());
+  auto* own = vtkCollectiveAlgorithm::SafeDownCast(filter);
+  return own && own->NeedsInput(port);
 }
 
 inline bool isRepeatable(vtkAlgorithm* filter, int port)

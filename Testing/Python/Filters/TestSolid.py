@@ -175,7 +175,7 @@ class Solids(unittest.TestCase):
             clip.ClipType.Center = list(place)
             clip.ClipType.Radius = .08 * (high - low).max()
             scan = simple.ExtractSurface(clip)
-        self.assertIn("OpenSurfaces WindingNumber takes it", self.message(scan))
+        self.assertIn("OpenSurfaces WindingNumber takes this surface with its holes. The input", self.message(scan))
         self.assertLess(abs(solid_volume(scan, OpenSurfaces="WindingNumber") / right - 1), .01)
 
     def test_klein_bottle(self):

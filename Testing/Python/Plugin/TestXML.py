@@ -226,7 +226,7 @@ class XML(unittest.TestCase):
                 self.assertEqual(set(found), set(range(filter_.GetNumberOfInputPorts())))
                 for port, prop in found.items():
                     information = filter_.GetInputPortInformation(port)
-                    optional = bool(information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()))
+                    optional = not filter_.NeedsInput(port)
                     self.assertEqual(prop.element.find("Hints/Optional") is not None, optional)
                     self.assertEqual(prop.element.get("null_on_empty") == "1", optional)
                     self.assertEqual(prop.element.get("panel_widget") == "input_selector", port > 0)
