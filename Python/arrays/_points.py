@@ -31,11 +31,12 @@ class Cells(NamedTuple):
     fields: Dict[str, Any]
 
 
-def _sampler(image, n, properties, kind=None):
+def sampler_of(density, n, properties, kind=None):
+    """Sample Density of a data object, for particles without arrays."""
     algorithm = filters.vtkTransportSampler()
     own = {"NumberOfParticles": index(n), "OutputPaths": 0, "SampleArrays": 0}
     set_properties(algorithm, own, properties, kind)
-    algorithm.SetInputData(image)
+    algorithm.SetInputData(density)
     return algorithm
 
 
@@ -66,7 +67,7 @@ def sample(density: ArrayLike, n: int, *, spacing: Numbers = 1.0, origin: Number
     a property that the filter refuses; TypeError for values that are not real numbers.
     """
     image, shape = image_of(density, "density", spacing, origin)
-    algorithm = _sampler(image, n, properties)
+    algorithm = sampler_of(image, n, properties)
     update(algorithm, {"density": shape})
     return positions_of(algorithm.GetOutput(), len(shape))
 
@@ -122,7 +123,7 @@ def stipple(image: ArrayLike, n: int, iterations: int = 50, *, invert: bool = Tr
     kind = filters.vtkDensityAlgorithm
     # Component -2 is the luminance of every type; Auto takes it of small integers alone.
     properties = {"InvertDensity": bool(invert), "Component": -2, **properties}
-    sampler = _sampler(picture, n, properties, kind)
+    sampler = sampler_of(picture, n, properties, kind)
     update(sampler, {"image": shape})
     if index(iterations) == 0:
         return positions_of(sampler.GetOutput(), 2)

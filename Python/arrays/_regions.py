@@ -16,9 +16,13 @@ from ._numbers import all_numbers
 from ._run import set_properties, update
 
 
+def mapping_of(thing):
+    """Its __geo_interface__, a mapping as GeoJSON has it; mappings are their own. None without it."""
+    return thing if isinstance(thing, dict) else getattr(thing, "__geo_interface__", None)
+
+
 def interface_of(thing, name):
-    """Its __geo_interface__, a mapping as GeoJSON has it; mappings are their own."""
-    mapping = thing if isinstance(thing, dict) else getattr(thing, "__geo_interface__", None)
+    mapping = mapping_of(thing)
     if not isinstance(mapping, dict):
         raise TypeError("%s is a %s without __geo_interface__; it must be a geometry of shapely or the "
                         "like, or GeoJSON" % (name, type(thing).__name__))
@@ -147,8 +151,7 @@ def cartogram(geometries: Any, masses: ArrayLike, **properties: Any) -> Any:
     polygons, for masses that are negative or not finite, and for a property that the filter refuses;
     TypeError for what is no geometry and no number.
     """
-    mapping = geometries if isinstance(geometries, dict) else getattr(
-        geometries, "__geo_interface__", None)
+    mapping = mapping_of(geometries)
     if mapping is not None and mapping.get("type") != "FeatureCollection":
         raise ValueError("geometries is one %s; it must be several regions" % mapping.get("type"))
     things = list(geometries if mapping is None else mapping["features"])

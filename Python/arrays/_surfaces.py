@@ -9,6 +9,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .. import vtkRectifiedTransport as filters
 from ._data import point_values_of, positions_of, surface_of
+from ._points import sampler_of
 from ._run import set_properties, update
 
 
@@ -63,10 +64,7 @@ def inside(points: ArrayLike, triangles: ArrayLike, n: int,
     solid_density(points, triangles, resolution, OpenSurfaces="WindingNumber"), and sample that.
     """
     surface = whole_surface_of(points, triangles)
-    algorithm = filters.vtkTransportSampler()
-    own = {"NumberOfParticles": index(n), "OutputPaths": 0, "SampleArrays": 0}
-    set_properties(algorithm, own, properties)
-    algorithm.SetInputData(surface)
+    algorithm = sampler_of(surface, n, properties)
     # A flat surface would be a density on its plane. Its corners have two directions at most.
     corners = positions_of(surface, 3)[np.unique(triangles)]
     if np.isfinite(corners).all():
