@@ -2,21 +2,17 @@
 #include "pqDensityComponentWidget.h"
 
 #include "Bridge/Run/Settings/ComponentChoice.h"
+#include "ChosenInput.h"
 
 #include "pqApplicationCore.h"
-#include "pqCoreUtilities.h"
 #include "pqPropertyWidgetDecorator.h"
 #include "pqServerManagerModel.h"
 
-#include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMArrayListDomain.h"
-#include "vtkSMProperty.h"
 #include "vtkSMProxy.h"
-#include "vtkSMSourceProxy.h"
-#include "vtkSMUncheckedPropertyHelper.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -35,20 +31,14 @@ vtkSMProperty* inputOf(vtkSMProperty* array)
 // The array in the first input, where there are several; nullptr where it is not known yet.
 vtkPVArrayInformation* chosenArray(vtkSMProperty* array)
 {
-  vtkSMProperty* input = inputOf(array);
-  if (!input)
+  vtkPVDataInformation* data = RectifiedTransport::chosenData(inputOf(array));
+  if (!data)
   {
     return nullptr;
   }
   vtkSMUncheckedPropertyHelper choice(array);
-  vtkSMUncheckedPropertyHelper inputs(input);
-  auto* source = inputs.GetNumberOfElements() > 0
-    ? vtkSMSourceProxy::SafeDownCast(inputs.GetAsProxy(0))
-    : nullptr;
   const char* name = choice.GetNumberOfElements() > 4 ? choice.GetAsString(4) : nullptr;
-  vtkPVDataInformation* data =
-    source && name ? source->GetDataInformation(inputs.GetOutputPort(0)) : nullptr;
-  if (!data)
+  if (!name)
   {
     return nullptr;
   }
@@ -90,12 +80,7 @@ pqDensityComponentWidget::pqDensityComponentWidget(
   vtkSMProperty* array = proxy->GetProperty("DensityArray");
   for (vtkSMProperty* source : { array, inputOf(array) })
   {
-    if (source)
-    {
-      pqCoreUtilities::connect(
-        source, vtkCommand::UncheckedPropertyModifiedEvent, this, SLOT(updateList()));
-      pqCoreUtilities::connect(source, vtkCommand::ModifiedEvent, this, SLOT(updateList()));
-    }
+    RectifiedTransport::followChoice(source, this, SLOT(updateList()));
   }
   // The arrays of an input are known once it is updated.
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),

@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqNoteDecorator.h"
 
+#include "ChosenInput.h"
 #include "Core/Geometry/Boxes/GridResolution.h"
 #include "Core/Messages/Failure.h"
 #include "Core/SiteCells/LabelPixels.h"
 
 #include "pqApplicationCore.h"
-#include "pqCoreUtilities.h"
 #include "pqPropertyWidget.h"
 #include "pqServerManagerModel.h"
 
 #include "vtkBoundingBox.h"
-#include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
-#include "vtkSMProperty.h"
 #include "vtkSMProxy.h"
-#include "vtkSMSourceProxy.h"
-#include "vtkSMUncheckedPropertyHelper.h"
 
 #include <QBoxLayout>
 #include <QLabel>
@@ -34,13 +30,9 @@ vtkPVDataInformation* dataOfBox(vtkSMProxy* filter)
 {
   for (const char* name : Inputs)
   {
-    vtkSMUncheckedPropertyHelper input(filter, name, true);
-    auto* source = input.GetNumberOfElements() > 0
-      ? vtkSMSourceProxy::SafeDownCast(input.GetAsProxy(0))
-      : nullptr;
-    if (source)
+    if (auto* data = RectifiedTransport::chosenData(filter->GetProperty(name)))
     {
-      return source->GetDataInformation(input.GetOutputPort(0));
+      return data;
     }
   }
   return nullptr;
@@ -101,12 +93,7 @@ pqNoteDecorator::pqNoteDecorator(vtkPVXMLElement* config, pqPropertyWidget* pare
   for (vtkSMProperty* source : { parentWidgetOfProperty->property(), filter->GetProperty(Inputs[0]),
          filter->GetProperty(Inputs[1]) })
   {
-    if (source)
-    {
-      pqCoreUtilities::connect(
-        source, vtkCommand::UncheckedPropertyModifiedEvent, this, SLOT(renew()));
-      pqCoreUtilities::connect(source, vtkCommand::ModifiedEvent, this, SLOT(renew()));
-    }
+    RectifiedTransport::followChoice(source, this, SLOT(renew()));
   }
   this->renew();
 }
